@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <pybind11/stl.h>
+
+#include "carom/state/report.hpp"
+
+#include "arguments.hpp"
+#include "module.hpp"
+
+namespace py = pybind11;
+using namespace carom;
+
+void bind_report(py::module_& m) {
+  py::class_<Energy>(m, "Energy",
+                     "Where the energy is and where it went, J; `balance` is constant up to the\n"
+                     "error of the integration.")
+      .def_readonly("kinetic", &Energy::kinetic, "J")
+      .def_readonly("potential", &Energy::potential, "J")
+      .def_readonly("dissipated", &Energy::dissipated,
+                    "J, by contacts and friction since the start")
+      .def_readonly("work", &Energy::work, "J, by applied wrenches and impulses since the start")
+      .def_property_readonly("balance", &Energy::balance,
+                             "J, kinetic + potential + dissipated - work")
+      .def("__repr__", [](const Energy& e) {
+        return py::str("Energy(kinetic={:.6g}, potential={:.6g}, dissipated={:.6g}, work={:.6g})")
+            .format(e.kinetic, e.potential, e.dissipated, e.work);
+      });
+
+  py::class_<ContactReport>(m, "ContactReport",
+                            "What contacts did: extremes and sums over the steps of a report.")
+      .def_readonly("points", &ContactReport::points, "in the last step")
+      .def_readonly("deepest_overlap", &ContactReport::deepest_overlap,
+                    "m, worst seen at a step's start, >= 0")
+      .def_readonly("residual", &ContactReport::residual, "m/s, worst the solver left")
+      .def_readonly("iterations", &ContactReport::iterations, "in all")
+      .def_readonly("islands", &ContactReport::islands, "in the last step")
+      .def_readonly("direct_islands", &ContactReport::direct_islands,
+                    "of these, solved directly; the others took small steps")
+      .def_readonly("asleep", &ContactReport::asleep, "bodies at rest without cost")
+      .def_readonly("gave_up", &ContactReport::gave_up, "solves that ended above their tolerance")
+      .def("__repr__", [](const ContactReport& c) {
+        return py::str(
+                   "ContactReport(points={}, deepest_overlap={:.4g}, residual={:.4g}, "
+                   "iterations={}, gave_up={})")
+            .format(c.points, c.deepest_overlap, c.residual, c.iterations, c.gave_up);
+      });
+
+  py::class_<RotationReport>(m, "RotationReport", "What turning the bodies took, added up.")
+      .def_readonly("capped", &RotationReport::capped, "bodies too fast for the most sub-steps")
+      .def_readonly("clamped", &RotationReport::clamped, "square-root steps beyond |dt w| = 2")
+      .def_readonly("not_converged", &RotationReport::not_converged,
+                    "implicit or adaptive steps that stopped at their cap")
+      .def_readonly("most_substeps", &RotationReport::most_substeps, "of any body in any step")
+      .def("__repr__", [](const RotationReport& r) {
+        return py::str("RotationReport(capped={}, clamped={}, not_converged={}, most_substeps={})")
+            .format(r.capped, r.clamped, r.not_converged, r.most_substeps);
+      });
+
+  py::class_<StageTime>(m, "StageTime", "Wall time spent in one stage.")
+      .def_readonly("stage", &StageTime::stage)
+      .def_readonly("seconds", &StageTime::seconds, "s, wall")
+      .def_readonly("bodies", &StageTime::bodies, "how many it worked on in the last step")
+      .def("__repr__", [](const StageTime& s) {
+        return py::str("StageTime({!r}, seconds={:.4g}, bodies={})")
+            .format(s.stage, s.seconds, s.bodies);
+      });
+
+  py::class_<Report>(m, "Report", "What an advance did, how wrong it may be and what it cost.")
+      .def_readonly("time", &Report::time, "s, simulated clock at the end")
+      .def_readonly("simulated", &Report::simulated, "s, advanced")
+      .def_readonly("steps", &Report::steps)
+      .def_readonly("wall_seconds", &Report::wall_seconds, "s")
+      .def_readonly("stages", &Report::stages, "wall time of each stage")
+      .def_readonly("contact", &Report::contact)
+      .def_readonly("rotation", &Report::rotation)
+      .def_readonly("frozen", &Report::frozen,
+                    "ids of bodies held at their last good pose since their state went non-finite")
+      .def_property_readonly("ok", &Report::ok, "no body frozen and no solve given up")
+      .def("__repr__", [](const Report& r) {
+        return py::str("<Report {}: {:.6g} s simulated in {} steps, {:.4g} s wall>")
+            .format(r.ok() ? "ok" : "NOT ok", r.simulated, r.steps, r.wall_seconds);
+      });
+}

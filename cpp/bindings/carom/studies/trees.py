@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Trees against the grid: what each bounding volume, build quality and cell size costs.
+
+    python -m carom.studies.trees --plot trees.png
+
+Every row is one method on one mesh and one kind of query: build time, queries per second, memory,
+and how many answers differ from a loop over all faces (`wrong`, which must be 0 everywhere).
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+
+from carom import Bvh, HashGrid
+from carom.broad import AllFaces
+
+CASES = ("even", "mixed", "flat")
+QUERIES = ("short", "long", "closest", "overlaps")
+CELL_FACTORS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)  # of the automatic size
+SAMPLE = 40  # queries also asked of all faces
+
+
+def mesh(case: str, faces: int, seed: int = 20261122) -> tuple[np.ndarray, np.ndarray]:
+    """A test mesh of about `faces` faces: a bumpy sphere of even faces; the same with one face in a
+    thousand forty times as large; a terrain ten times as wide as high."""
+    n = max(int(np.sqrt(faces / 2)), 4)
+    u, v = np.meshgrid(np.linspace(0, 1, n + 1), np.linspace(0, 1, n + 1), indexing="ij")
+    u, v = u.ravel(), v.ravel()
+    if case == "flat":
+        height = 0.3 * np.sin(17 * u) * np.cos(13 * v) + 0.1 * np.sin(61 * u + 40 * v)
+        vertices = np.stack([10 * u, 10 * v, height], 1)
+    else:
+        theta, phi = np.pi * u, 2 * np.pi * v
+        r = 1 + 0.2 * np.sin(5 * phi) * np.sin(7 * theta)
+        vertices = (
+            r * np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)])
+        ).T
+    i, j = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
+    a, b = (i * (n + 1) + j).ravel(), ((i + 1) * (n + 1) + j).ravel()
+    triangles = np.concatenate([np.stack([a, b, b + 1], 1), np.stack([a, b + 1, a + 1], 1)])
+    if case == "mixed":
+        rng = np.random.default_rng(seed)
+        large = vertices[
+            triangles[rng.permutation(len(triangles))[: max(len(triangles) // 1000, 2)]]
+        ]
+        large = large.mean(1, keepdims=True) + 40 * (large - large.mean(1, keepdims=True))
+        extra = len(vertices) + np.arange(large.shape[0] * 3).reshape(-1, 3)
+        vertices = np.concatenate([vertices, large.reshape(-1, 3)])
+        triangles = np.concatenate([triangles, extra])
+    return vertices, triangles.astype(np.int32)
+
+
+def queries(vertices: np.ndarray, count: int, seed: int) -> dict[str, tuple[np.ndarray, ...]]:
+    """Arguments of each kind of query, in the box of the mesh: segments of 2 % of its diagonal near
+    the surface, segments across, points, boxes of 1 %."""
+    rng = np.random.default_rng(seed)
+    low, high = vertices.min(0), vertices.max(0)
+    diagonal = np.linalg.norm(high - low)
+
+    def anywhere() -> np.ndarray:
+        return low + (high - low) * rng.random((count, 3))
+
+    near = vertices[rng.integers(len(vertices), size=count)]
+    start = near + rng.normal(0, 0.01 * diagonal, (count, 3))
+    step = rng.normal(0, 1, (count, 3))
+    step *= 0.02 * diagonal / np.linalg.norm(step, axis=1, keepdims=True)
+    return {
+        "short": (start, start + step),
+        "long": (anywhere(), anywhere()),
+        "closest": (start,),
+        "overlaps": (start - 0.005 * diagonal, start + 0.005 * diagonal),
+    }
+
+
+def _ask(index: Bvh | HashGrid | AllFaces, kind: str, arguments: tuple[np.ndarray, ...]) -> tuple:
+    call = {"closest": index.closest, "overlaps": index.overlaps}.get(kind, index.segments)
+    return call(*arguments)
+
+
+def _wrong(index: Bvh | HashGrid, truth: AllFaces, kind: str, arguments: tuple) -> int:
+    few = tuple(a[:SAMPLE] for a in arguments)
+    ours, theirs = _ask(index, kind, few), _ask(truth, kind, few)
+    if kind == "overlaps":
+        return int(any(not np.array_equal(a, b) for a, b in zip(ours, theirs, strict=True)))
+    return int(np.sum((ours[0] != theirs[0]) | (ours[1] != theirs[1])))
+
+
+def _timed(call: Callable[[], object], least: float = 0.02) -> float:
+    """Seconds per call, the fastest of repeats over at least `least` seconds."""
+    best, spent = np.inf, 0.0
+    while spent < least:
+        begin = time.perf_counter()
+        call()
+        took = time.perf_counter() - begin
+        best, spent = min(best, took), spent + took
+    return best
+
+
+def _methods(
+    vertices: np.ndarray, faces: np.ndarray
+) -> Iterator[tuple[str, Callable, float | None]]:
+    for quality in ("low", "medium", "high"):
+        yield f"bvh box {quality}", lambda q=quality: Bvh(vertices, faces, quality=q), None
+    for volume in ("sphere", "oriented_box"):
+        yield f"bvh {volume}", lambda v=volume: Bvh(vertices, faces, volume=v), None
+    automatic = HashGrid(vertices, faces).cell_size
+    for factor in CELL_FACTORS:
+        size = automatic * factor
+        name = "grid automatic" if factor == 1 else f"grid x {factor:g}"
+        yield name, lambda s=size: HashGrid(vertices, faces, s), size
+
+
+def run(
+    progress: Callable[[str], None] | None = None,
+    *,
+    faces: int = 20000,
+    count: int = 2000,
+    seed: int = 20261122,
+) -> list[dict]:
+    """Rows of the study. progress: called with a line per method."""
+    rows = []
+    for case in CASES:
+        vertices, triangles = mesh(case, faces, seed)
+        asked = queries(vertices, count, seed + 1)
+        truth = AllFaces(vertices, triangles)
+        methods = [("all faces", lambda v=vertices, t=triangles: AllFaces(v, t), None)]
+        for name, build, cell_size in [*methods, *_methods(vertices, triangles)]:
+            if progress is not None:
+                progress(f"{case}: {name}")
+            index = build()
+            build_s = _timed(build)
+            for kind in QUERIES:
+                arguments = asked[kind]
+                if name == "all faces":
+                    arguments = tuple(a[:SAMPLE] for a in arguments)
+                seconds = _timed(lambda i=index, k=kind, a=arguments: _ask(i, k, a))
+                wrong = 0 if name == "all faces" else _wrong(index, truth, kind, arguments)
+                rows.append(
+                    {
+                        "study": "trees",
+                        "case": case,
+                        "method": name,
+                        "query": kind,
+                        "faces": len(triangles),
+                        "cell_size": cell_size,  # m
+                        "queries": len(arguments[0]),
+                        "error": float(wrong),
+                        "error_unit": f"wrong of {SAMPLE}",
+                        "seconds": seconds,  # for all queries
+                        "build_s": build_s,
+                        "queries_per_s": len(arguments[0]) / seconds,
+                        "memory_bytes": index.memory_bytes,
+                        "wrong": wrong,
+                    }
+                )
+    return rows
+
+
+def grid_wins(rows: list[dict]) -> list[dict]:
+    """Per case and query the best grid beside the best tree, and whether the grid was faster."""
+    out = []
+    for case in dict.fromkeys(r["case"] for r in rows):
+        for kind in QUERIES:
+            here = [r for r in rows if r["case"] == case and r["query"] == kind]
+            grid = max((r for r in here if r["cell_size"]), key=lambda r: r["queries_per_s"])
+            tree = max(
+                (r for r in here if r["method"].startswith("bvh")), key=lambda r: r["queries_per_s"]
+            )
+            out.append(
+                {
+                    "case": case,
+                    "query": kind,
+                    "grid": grid["method"],
+                    "tree": tree["method"],
+                    "ratio": grid["queries_per_s"] / tree["queries_per_s"],
+                    "grid_wins": grid["queries_per_s"] > tree["queries_per_s"],
+                }
+            )
+    return out
+
+
+def plot(rows: list[dict], path: str | Path) -> None:
+    """Queries per second, build time and memory of the grid over its cell size; trees as lines."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot as plt
+
+    cases = list(dict.fromkeys(r["case"] for r in rows))
+    figure, axes = plt.subplots(3, len(cases), figsize=(4.2 * len(cases), 9), squeeze=False)
+    columns = (
+        ("queries_per_s", "queries/s"),
+        ("build_s", "build, s"),
+        ("memory_bytes", "memory, bytes"),
+    )
+    for c, case in enumerate(cases):
+        here = [r for r in rows if r["case"] == case]
+        for a, (key, label) in enumerate(columns):
+            axis = axes[a][c]
+            for k, kind in enumerate(QUERIES if key == "queries_per_s" else QUERIES[:1]):
+                grid = [r for r in here if r["query"] == kind and r["cell_size"]]
+                axis.loglog(
+                    [r["cell_size"] for r in grid],
+                    [r[key] for r in grid],
+                    "o-",
+                    color=f"C{k}",
+                    label=f"grid, {kind}" if key == "queries_per_s" else "grid",
+                )
+                tree = next(
+                    r for r in here if r["query"] == kind and r["method"] == "bvh box medium"
+                )
+                axis.axhline(tree[key], ls="--", color=f"C{k}")
+            axis.set_xlabel("cell size, m")
+            axis.set_ylabel(label)
+        axes[0][c].set_title(f"{case}, {here[0]['faces']} faces (dashed: bvh)")
+    axes[0][0].legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--faces", type=int, default=20000)
+    parser.add_argument("--plot", type=Path)
+    parser.add_argument("--json", type=Path)
+    options = parser.parse_args()
+    rows = run(faces=options.faces)
+    print(
+        f"{'case':6} {'query':9} {'method':20} {'cell m':>8} {'build ms':>9} {'kq/s':>9} {'MB':>7}"
+    )
+    for r in rows:
+        cell = f"{r['cell_size']:.3g}" if r["cell_size"] else ""
+        print(
+            f"{r['case']:6} {r['query']:9} {r['method']:20} {cell:>8} {1e3 * r['build_s']:9.2f} "
+            f"{r['queries_per_s'] / 1e3:9.1f} {r['memory_bytes'] / 1e6:7.1f}"
+        )
+    for w in grid_wins(rows):
+        print(f"{w['case']:6} {w['query']:9} best grid / best tree = {w['ratio']:.2f}")
+    if options.plot:
+        plot(rows, options.plot)
+    if options.json:
+        options.json.write_text(json.dumps(rows, indent=1))
+    return int(any(r["wrong"] for r in rows))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "carom/bodies/ids.hpp"
+#include "carom/bodies/mass_properties.hpp"
+#include "carom/geometry/shape.hpp"
+#include "carom/scene/effects.hpp"
+
+namespace carom {
+
+/// One body as the scene describes it. Mass: give at most one of mass, density and mass_properties.
+struct BodyDefinition {
+  std::string name{};  ///< [A-Za-z][A-Za-z0-9_]*, unique; empty: "body_<id>"
+  Shape shape{};
+  bool is_static = false;
+  std::optional<double> mass{};                        ///< kg, spread evenly over the shape
+  std::optional<double> density{};                     ///< kg/m^3; 1000 where nothing is given
+  std::optional<MassProperties> mass_properties{};     ///< in the body frame
+  Pose pose{};                                         ///< of the body frame
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s, of the body frame's origin
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< rad/s, world axes
+  double friction = 0.5;                                       ///< a pair uses sqrt(mu1 mu2)
+  double restitution = 0.0;                                    ///< 0 to 1; a pair uses the larger
+  /// m: the torque that resists rolling, or spinning about the normal, is at most this times the
+  /// normal force; a pair uses the larger. 0: no such rows exist.
+  double rolling_resistance = 0.0;
+  double spinning_resistance = 0.0;
+};
+
+/// The body's mass properties by whichever way it gives them. Zero mass for a static body.
+/// @throws InvalidInput naming body and field
+[[nodiscard]] MassProperties mass_properties(const BodyDefinition& body);
+
+/// Everything a simulation is told: plain data, no behaviour but checking what is put in.
+struct Scene {
+  /// A body once it is checked and named.
+  struct Body : BodyDefinition {
+    BodyId id;
+    MassProperties properties;  ///< in the body frame; zero for a static body
+  };
+  std::vector<Body> bodies;
+  std::vector<Effect> effects;
+
+  /// Checks and appends. @throws InvalidInput naming the body, the field and the rule; the scene is
+  /// then unchanged
+  BodyId add(BodyDefinition body);
+  /// Ids are never used again. @throws InvalidInput when there is no such body
+  void remove(BodyId id);
+  [[nodiscard]] std::optional<BodyId> find(std::string_view name) const;
+  /// Row of the body now, or nothing. O(log n): ids ascend with rows.
+  [[nodiscard]] std::optional<int> row(BodyId id) const;
+
+ private:
+  std::uint32_t next_id_ = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+// The tree of Bvh as its kernels see it: plain arrays, so that one source can be compiled for
+// several CPU levels.
+#include <cstddef>
+#include <cstdint>
+
+#include "broad/box_blocks.hpp"  // Emit
+#include "broad/triangle_queries.hpp"
+
+namespace carom::broad {
+
+inline constexpr int wide = 8;        // children of a node
+inline constexpr int leaf_width = 4;  // triangles of a leaf
+inline constexpr std::uint32_t leaf_flag = 0x80000000U;
+inline constexpr std::uint32_t no_child = 0xFFFFFFFFU;
+// SAH splits are followed by halving beyond this depth, so 32-bit counts end below 64.
+inline constexpr int depth_of_free_splits = 20;
+inline constexpr int max_depth = 64;
+inline constexpr int stack_size = (wide - 1) * max_depth + wide;
+
+/// Boxes of eight children in tree space, rounded outward: lower x, y, z, upper x, y, z. Unused
+/// children are empty boxes.
+struct alignas(64) WideNode {
+  float bounds[6][wide];
+  std::uint32_t child[wide];  ///< index of a node, or leaf_flag | index of a leaf
+};
+
+/// Corners of four triangles, as given. face is -1 in unused lanes, whose corners are all 0.
+struct alignas(64) Leaf {
+  double corner[3][3][leaf_width];  ///< corner, axis, triangle
+  int face[leaf_width];
+};
+
+/// x in tree space is x scale - shift, about within [-1, 1]. scale is a power of two.
+struct Frame {
+  double scale = 1;
+  double shift[3] = {0, 0, 0};
+};
+
+struct WideTreeView {
+  const WideNode* nodes;
+  const Leaf* leaves;
+  std::uint32_t root;  ///< a child reference; no_child for an empty tree
+  int leaf_count;
+  Frame frame;
+};
+
+/// Bounds of one triangle in tree space for the builder: lower x, y, z, index, then minus upper x,
+/// y, z, so that one minimum joins two of them.
+struct alignas(32) BuildItem {
+  float bounds[8];
+  [[nodiscard]] int index() const { return __builtin_bit_cast(int, bounds[3]); }
+};
+
+/// Where the builder writes. Node k comes before its children.
+struct BuildTarget {
+  BuildItem* items;
+  int count;
+  int bins;  ///< at most max_bins
+  WideNode* nodes;
+  int node_capacity;
+  int*
+      leaf_begin;  ///< first item of each leaf, and one past the last leaf's end; count + 1 entries
+  int node_count, leaf_count;
+  std::uint32_t root;
+  bool full;  ///< node_capacity was too small
+};
+inline constexpr int max_bins = 32;
+
+struct WideKernels {
+  void (*build)(BuildTarget& target);
+  /// Boxes of nodes [first, last) from their children; leaf_bounds: 8 floats a leaf, as BuildItem.
+  void (*refit)(WideNode* nodes, int first, int last, const float* leaf_bounds);
+  void (*raycast)(const WideTreeView& tree, const Ray* rays, int count, Nearest* out);
+  void (*any_hit)(const WideTreeView& tree, const Ray* rays, int count, std::uint8_t* out);
+  /// Emits faces whose box overlaps (lower x, y, z, upper x, y, z).
+  void (*overlaps)(const WideTreeView& tree, const double* box, void* sink, Emit emit);
+  /// Nearest point; `best` starts with the largest squared distance of interest.
+  void (*closest)(const WideTreeView& tree, const double* point, Nearest& best, double* at);
+  /// Emits keys of pairs of faces.
+  void (*self_pairs)(const WideTreeView& tree, void* sink, Emit emit);
+};
+
+namespace portable {
+extern const WideKernels wide_kernels;
+}
+namespace avx2 {
+extern const WideKernels wide_kernels;
+}
+[[nodiscard]] const WideKernels& wide_kernels();
+
+}  // namespace carom::broad

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "contact/bulk.hpp"
+
+#pragma GCC diagnostic ignored "-Wpsabi"  // the vector type stays within this file
+
+namespace carom::contact {
+namespace portable {
+namespace {
+using Four = double __attribute__((vector_size(32)));
+inline Four multiply_add(Four a, Four b, Four c) {
+  return a * b + c;
+}
+inline Four square_root(Four a) {
+  return Four{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+}
+}  // namespace
+#include "contact/bulk_kernel.inl"
+}  // namespace portable
+
+const BulkKernels& bulk_kernels() {
+#if defined(__x86_64__)
+  static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (wide) return avx2::kernels;
+#endif
+  return portable::kernels;
+}
+
+}  // namespace carom::contact

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "contact/choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "carom/numerics/tolerance.hpp"
+
+#include "contact/small_steps.hpp"
+
+namespace carom::contact {
+namespace {
+
+constexpr int few = 8, many = 16, most = 32;  // small steps
+constexpr int most_fine_bodies = 250;  // taller heaps are not quiet at 32 (pyramid of 30, measured)
+constexpr int most_direct_bodies = 300;
+constexpr int newton_least = 40;  // a hit from rest takes up to 15 outer rounds of two or three
+
+}  // namespace
+
+// At rest a soft point of effective mass m carries the force m omega^2 depth.
+SinkEstimate soft_sink(const Islands& islands, const Island& island, const BodyStates& states,
+                       const BodyFrames& frames, std::span<const Contact> contacts, double dt,
+                       int substeps) {
+  SinkEstimate sink;
+  for (int i = 0; i < island.patches; ++i) {
+    const Patch& p = islands.patches[island.first_patch + i];
+    const bool against_static = !states.moves[p.a] || !states.moves[p.b];
+    const double omega = 2 * std::numbers::pi * softness(substeps, dt, against_static).frequency;
+    for (int k = p.first; k < p.first + p.count; ++k) {
+      const Contact& c = contacts[k];
+      const double force = c.impulse.dot(c.normal) / dt;
+      if (!(force > 0)) continue;
+      const double w = mobility_along(states.inverse_mass[p.a], frames.inverse_inertia[p.a],
+                                      c.position - states.position[p.a], c.normal) +
+                       mobility_along(states.inverse_mass[p.b], frames.inverse_inertia[p.b],
+                                      c.position - states.position[p.b], c.normal);
+      const double depth = force * w / (omega * omega);
+      sink.worst = std::max(sink.worst, depth);
+      sink.mean += depth;
+    }
+  }
+  if (island.points > 0) sink.mean /= island.points;
+  return sink;
+}
+
+// Fill grows with the patches a body has: 2 blocks a body in a chain, 9 in a wall (measured).
+double newton_seconds(const Island& island) {
+  const double patches = static_cast<double>(island.patches) / std::max(island.bodies, 1);
+  return 1e-6 * island.bodies * (1 + patches * patches) + 0.15e-6 * island.points;
+}
+
+Choice choose(const Islands& islands, const Island& island, const BodyStates& states,
+              const BodyFrames& frames, std::span<const Contact> contacts, double dt,
+              const SolverOptions& options, const SolverMemory& memory, double& easy_budget) {
+  Choice choice;
+  const SinkEstimate sink = soft_sink(islands, island, states, frames, contacts, dt, few);
+  // Layers add their sinks up: where the mean is large the whole leans, unless the island is too
+  // large to afford better.
+  const bool fine = sink.mean > 0.75 * tolerance::soft_sink && island.bodies <= most_fine_bodies;
+  choice.substeps = options.substeps > 0                 ? options.substeps
+                    : sink.worst <= tolerance::soft_sink ? few
+                    : fine                               ? most
+                                                         : many;
+  const double each = newton_seconds(island);
+  choice.newton_cap = std::max(newton_least, static_cast<int>(4 * options.direct_budget / each));
+  if (options.choice != SolverChoice::automatic) {
+    choice.direct = options.choice == SolverChoice::direct;
+    if (choice.direct) choice.newton_cap = std::max(choice.newton_cap, 1000);
+    return choice;
+  }
+  int newton = 4, held_off = 0;
+  bool was_direct = false;
+  for (int i = 0; i < island.bodies; ++i) {
+    const int row = islands.bodies[island.first_body + i];
+    newton = std::max<int>(newton, memory.newton[row]);
+    held_off = std::max<int>(held_off, memory.held_off[row]);
+    was_direct |= memory.direct[row] != 0;
+  }
+  if (held_off > 0 || island.bodies > most_direct_bodies) return choice;
+  const double cost = each * newton;
+  const bool hard = sink.worst > tolerance::soft_sink * (was_direct ? 0.5 : 1.0);
+  choice.direct = cost <= (hard ? options.direct_budget : easy_budget);
+  if (choice.direct && !hard) easy_budget -= cost;
+  return choice;
+}
+
+}  // namespace carom::contact

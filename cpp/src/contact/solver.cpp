@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "carom/contact/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "carom/numerics/tolerance.hpp"
+
+#include "contact/choice.hpp"
+#include "contact/direct_island.hpp"
+#include "contact/impacts.hpp"
+#include "contact/islands.hpp"
+#include "contact/scratch.hpp"
+#include "contact/small_steps.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double easy_budget = 5e-4;   // s, estimated, per step for islands that are not hard
+constexpr std::uint8_t hold_off = 30;  // steps until a direct solve is tried again
+
+void resize(Array3& a, int n) {
+  a.x.resize(n), a.y.resize(n), a.z.resize(n);
+}
+
+}  // namespace
+
+void SolverMemory::resize(int n) {
+  newton.resize(n, 4);
+  held_off.resize(n, 0);
+  direct.resize(n, 0);
+  island.resize(n, -1);
+}
+
+void SolverMemory::erase(int i) {
+  if (i >= static_cast<int>(newton.size())) return;  // came after the last solve
+  newton.erase(newton.begin() + i);
+  held_off.erase(held_off.begin() + i);
+  direct.erase(direct.begin() + i);
+  island.erase(island.begin() + i);
+}
+
+struct ContactSolver::Workspace {
+  contact::Islands islands;
+  contact::BodyFrames frames;
+  contact::DirectIsland direct;
+  contact::Impacts impacts;
+  contact::SmallSteps small_steps;
+  std::vector<std::pair<int, int>> later;  // substeps and island of what is not solved directly
+  ContactMotion motion;
+};
+
+ContactSolver::ContactSolver() : workspace_(std::make_unique<Workspace>()) {}
+ContactSolver::~ContactSolver() = default;
+// A workspace holds nothing that outlives a step.
+ContactSolver::ContactSolver(const ContactSolver& other)
+    : memory(other.memory), workspace_(std::make_unique<Workspace>()) {}
+ContactSolver& ContactSolver::operator=(const ContactSolver& other) {
+  memory = other.memory;
+  return *this;
+}
+ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
+ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
+
+const ContactMotion& ContactSolver::motion() const {
+  return workspace_->motion;
+}
+
+SolveOutcome ContactSolver::solve(BodyStates& states, const Array3& velocity_before,
+                                  const Array3& angular_momentum_before,
+                                  std::span<Contact> contacts, double dt,
+                                  const SolverOptions& options) {
+  Workspace& w = *workspace_;
+  const int n = states.size();
+  memory.resize(n);
+  w.motion.decided.assign(n, 0);
+  resize(w.motion.displacement, n), resize(w.motion.turn, n);
+  for (Contact& c : contacts) c.dissipated = 0;
+  w.islands.build(states, contacts);
+  w.frames.resize(n);
+  for (const int row : w.islands.bodies)
+    w.frames.set(row, states, velocity_before, angular_momentum_before);
+  for (const contact::Patch& p : w.islands.patches)
+    for (const int row : {p.a, p.b})
+      if (!states.moves[row]) w.frames.set(row, states, velocity_before, angular_momentum_before);
+
+  std::ranges::fill(memory.island, -1);
+  SolveOutcome out;
+  out.islands = static_cast<int>(w.islands.islands.size());
+  out.dissipated += w.impacts.resolve(states, w.frames, w.islands, contacts, dt);
+
+  w.later.clear();
+  double easy_left = easy_budget;
+  for (int k = 0; k < out.islands; ++k) {
+    const contact::Island& island = w.islands.islands[k];
+    contact::Choice choice = contact::choose(w.islands, island, states, w.frames, contacts, dt,
+                                             options, memory, easy_left);
+    bool solved = false;
+    int newton = 0;
+    if (choice.direct) {
+      const contact::DirectResult result =
+          w.direct.solve(states, w.frames, w.islands, island, contacts, w.motion, dt,
+                         options.tolerance, choice.newton_cap, out.dissipated);
+      newton = result.newton;
+      solved = result.converged;
+      out.iterations += newton;
+      if (solved) {
+        out.residual = std::max(out.residual, result.residual);
+        out.direct_bodies += island.bodies;
+        ++out.direct_islands;
+      } else {
+        choice.substeps = std::max(choice.substeps, 16);
+        ++out.gave_up;
+      }
+    }
+    const bool costly =
+        choice.direct && newton * contact::newton_seconds(island) > options.direct_budget;
+    for (int i = 0; i < island.bodies; ++i) {
+      const int row = w.islands.bodies[island.first_body + i];
+      memory.direct[row] = solved;
+      memory.island[row] = w.islands.bodies[island.first_body];
+      if (choice.direct) memory.newton[row] = static_cast<std::uint16_t>(std::min(newton, 65535));
+      if (costly || (choice.direct && !solved)) {
+        memory.held_off[row] = hold_off;
+        memory.newton[row] = 4;
+      } else if (memory.held_off[row] > 0) {
+        --memory.held_off[row];
+      }
+    }
+    if (!solved) w.later.emplace_back(choice.substeps, k);
+  }
+
+  // Islands of equal small steps share their lanes.
+  std::ranges::sort(w.later);
+  for (std::size_t i = 0; i < w.later.size();) {
+    w.small_steps.clear();
+    const int substeps = w.later[i].first;
+    for (; i < w.later.size() && w.later[i].first == substeps; ++i) {
+      w.small_steps.add(w.islands, w.islands.islands[w.later[i].second]);
+      ++out.small_step_islands;
+    }
+    out.residual = std::max(out.residual, w.small_steps.solve(states, w.frames, contacts, w.motion,
+                                                              dt, substeps, out.dissipated));
+    out.iterations += substeps;
+  }
+  w.impacts.add_to(contacts);
+  for (const int row : w.islands.bodies)
+    if (!w.impacts.hit().empty() && w.impacts.hit()[row] && !w.motion.decided[row]) {
+      w.motion.decided[row] = 1;
+      w.motion.displacement.set(row,
+                                0.5 * dt * (w.frames.velocity_before[row] + states.velocity[row]));
+      w.motion.turn.set(row, Eigen::Vector3d::Zero());
+    }
+  return out;
+}
+
+}  // namespace carom

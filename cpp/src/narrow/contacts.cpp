@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "carom/narrow/contacts.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "carom/numerics/tolerance.hpp"
+
+#include "geometry/features.hpp"
+#include "narrow/boxes.hpp"
+#include "narrow/candidates.hpp"
+#include "narrow/routines.hpp"
+
+namespace carom {
+namespace {
+
+using Eigen::Vector3d;
+using Manifolds = std::vector<Manifold>;
+
+enum class Kind { half_space, convex, surface, sdf };
+
+/// A shape as the routines take it.
+struct Leaf {
+  Kind kind = Kind::convex;
+  Vector3d normal = Vector3d::UnitZ();
+  double offset = 0;
+  Convex convex;
+  const Box* box = nullptr;
+  const Polytope* polytope = nullptr;
+  const MeshSurface* surface = nullptr;
+  const SdfGrid* sdf = nullptr;
+
+  bool is_ball() const { return convex.kind == Convex::Kind::points && convex.end_count == 1; }
+};
+
+/// `slot`: which of the two scratch boxes to use.
+Leaf leaf_of(const Shape& shape, int slot) {
+  Leaf leaf;
+  if (const auto* plane = std::get_if<Plane>(&shape)) {
+    leaf.kind = Kind::half_space;
+    leaf.normal = plane->normal.normalized();
+    leaf.offset = plane->offset;
+  } else if (const auto* sdf = std::get_if<Sdf>(&shape)) {
+    leaf.kind = Kind::sdf;
+    leaf.sdf = sdf->grid.get();
+  } else if (const auto convex = convex_of(shape)) {
+    leaf.convex = *convex;
+    leaf.box = std::get_if<Box>(&shape);
+    if (leaf.box) leaf.polytope = &scratch_polytope(*leaf.box, slot);
+    if (leaf.convex.polytope) leaf.polytope = leaf.convex.polytope;
+  } else {
+    leaf.kind = Kind::surface;
+  }
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) leaf.surface = mesh->surface.get();
+  if (const auto* hull = std::get_if<ConvexHull>(&shape)) leaf.surface = hull->surface.get();
+  if (const auto* terrain = std::get_if<HeightField>(&shape)) leaf.surface = terrain->surface.get();
+  return leaf;
+}
+
+void convex_pair(const Leaf& a, const Leaf& b, const Frame& b_in_a, double margin, Manifolds& out) {
+  if (a.box && b.is_ball() && b.convex.radius > 0)
+    return box_ball(a.convex.size, b_in_a.translation, b.convex.radius, margin, out);
+  if (a.polytope && b.polytope &&
+      a.polytope->edges.size() * b.polytope->edges.size() <= tolerance::edge_pairs)
+    return polytope_polytope(*a.polytope, *b.polytope, b_in_a, margin, out);
+  convex_convex(a.convex, b.convex, b_in_a, margin, out);
+}
+
+void surface_leaf(const Leaf& a, const Leaf& b, const Frame& b_in_a, double margin,
+                  Manifolds& out) {
+  if (b.is_ball())
+    return surface_ball(*a.surface, b_in_a.translation, b.convex.radius, margin, out);
+  if (b.surface) return surface_surface(*a.surface, *b.surface, b_in_a, margin, out);
+  if (b.box) return surface_surface(*a.surface, scratch_surface(*b.box), b_in_a, margin, out);
+  surface_convex(*a.surface, b.convex, b_in_a, margin, out);
+}
+
+/// a's kind is not below b's, but for half-spaces, which come first.
+void meet(const Leaf& a, const Leaf& b, const Frame& b_in_a, double margin, Manifolds& out) {
+  switch (a.kind) {
+    case Kind::half_space:
+      if (b.kind == Kind::convex && b.polytope)
+        half_space_points(a.normal, a.offset, b.polytope->vertices, b_in_a, margin, out);
+      else if (b.kind == Kind::convex)
+        half_space_convex(a.normal, a.offset, b.convex, b_in_a, margin, out);
+      else if (b.kind == Kind::surface)
+        half_space_surface(a.normal, a.offset, *b.surface, b_in_a, margin, out);
+      else if (b.kind == Kind::sdf)
+        half_space_sdf(a.normal, a.offset, *b.sdf, b_in_a, margin, out);
+      return;  // two half-spaces are both static: never asked
+    case Kind::convex:
+      return convex_pair(a, b, b_in_a, margin, out);
+    case Kind::surface:
+      return surface_leaf(a, b, b_in_a, margin, out);
+    case Kind::sdf:
+      if (b.kind == Kind::sdf) return sdf_sdf(*a.sdf, *b.sdf, b_in_a, margin, out);
+      if (b.kind == Kind::surface) return sdf_surface(*a.sdf, *b.surface, b_in_a, margin, out);
+      return sdf_convex(*a.sdf, b.convex, b_in_a, margin, out);
+  }
+}
+
+/// Whether the pair is asked as (b, a).
+bool turned(const Leaf& a, const Leaf& b) {
+  if (a.kind == Kind::half_space || b.kind == Kind::half_space) return b.kind == Kind::half_space;
+  if (a.kind != b.kind) return a.kind < b.kind;
+  return a.kind == Kind::convex && b.box && !a.box;
+}
+
+void collide_leaves(const Shape& a, const Frame& frame_a, const Shape& b, const Frame& frame_b,
+                    double margin, Manifolds& out) {
+  Leaf la = leaf_of(a, 0), lb = leaf_of(b, 1);
+  const bool turn = turned(la, lb);
+  if (turn) std::swap(la, lb);
+  const Frame &first = turn ? frame_b : frame_a, &second = turn ? frame_a : frame_b;
+  const std::size_t begin = out.size();
+  meet(la, lb, relative(first, second), margin, out);
+  for (std::size_t i = begin; i < out.size(); ++i) {
+    Manifold& m = out[i];
+    m.normal = turn ? Vector3d(-(first.rotation * m.normal)) : Vector3d(first.rotation * m.normal);
+    for (int k = 0; k < m.count; ++k) m.points[k].position = first * m.points[k].position;
+  }
+}
+
+/// Names points apart that come from different parts of one body.
+void rename(std::size_t begin, std::uint32_t part, Manifolds& out) {
+  for (std::size_t i = begin; i < out.size(); ++i)
+    for (int k = 0; k < out[i].count; ++k)
+      out[i].points[k].feature = feature::pair(out[i].points[k].feature, part);
+}
+
+void collide_frames(const Shape& a, const Frame& frame_a, const Shape& b, const Frame& frame_b,
+                    double margin, Manifolds& out);
+
+/// Each part of a whole against the other shape; `part_is_a` tells on which side it stands.
+template <class Part>
+void each(const Part& part_shape, const Frame& placed, std::uint32_t number, const Shape& other,
+          const Frame& frame_other, bool part_is_a, double margin, Manifolds& out) {
+  const std::size_t begin = out.size();
+  if (part_is_a)
+    collide_frames(part_shape, placed, other, frame_other, margin, out);
+  else
+    collide_frames(other, frame_other, part_shape, placed, margin, out);
+  rename(begin, number, out);
+}
+
+/// Bodies of parts are taken apart; returns false for a body in one piece.
+bool taken_apart(const Shape& whole, const Frame& frame, const Shape& other,
+                 const Frame& frame_other, bool whole_is_a, double margin, Manifolds& out) {
+  const auto* compound = std::get_if<Compound>(&whole);
+  const auto* particles = std::get_if<ParticleSet>(&whole);
+  if (!compound && !particles) return false;
+  const Pose pose_other{frame_other.translation, Eigen::Quaterniond(frame_other.rotation)};
+  const Aabb near = bounds(other, pose_other).inflated(margin);
+  const std::size_t begin = out.size();
+  std::uint32_t number = 0;
+  if (compound)
+    for (const CompoundPart& part : *compound->parts) {
+      const Frame placed = frame * Frame(part.pose);
+      const Pose pose{placed.translation, Eigen::Quaterniond(placed.rotation)};
+      ++number;
+      if (bounds(part.shape, pose).overlaps(near))
+        each(part.shape, placed, number, other, frame_other, whole_is_a, margin, out);
+    }
+  else
+    for (Eigen::Index i = 0; i < particles->positions.rows(); ++i) {
+      const Vector3d at = frame * Vector3d(particles->positions.row(i).transpose());
+      ++number;
+      if (squared_distance(near, at) > particles->radius * particles->radius) continue;
+      each(Shape(Sphere{particles->radius}), Frame(Eigen::Matrix3d::Identity(), at), number, other,
+           frame_other, whole_is_a, margin, out);
+    }
+  join(begin, tolerance::same_normal, out);
+  return true;
+}
+
+void collide_frames(const Shape& a, const Frame& frame_a, const Shape& b, const Frame& frame_b,
+                    double margin, Manifolds& out) {
+  if (taken_apart(a, frame_a, b, frame_b, true, margin, out)) return;
+  if (taken_apart(b, frame_b, a, frame_a, false, margin, out)) return;
+  collide_leaves(a, frame_a, b, frame_b, margin, out);
+}
+
+}  // namespace
+
+void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin,
+             Manifolds& out) {
+  collide_frames(a, Frame(pose_a), b, Frame(pose_b), margin, out);
+}
+
+Manifold collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                 double margin) {
+  thread_local Manifolds all;
+  all.clear();
+  collide(a, pose_a, b, pose_b, margin, all);
+  const auto depth = [](const Manifold& m) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < m.count; ++k) least = std::min(least, m.points[k].separation);
+    return least;
+  };
+  const auto best = std::ranges::min_element(all, {}, depth);
+  return best == all.end() ? Manifold{} : *best;
+}
+
+}  // namespace carom

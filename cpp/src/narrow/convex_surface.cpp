@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "carom/geometry/separation.hpp"
+#include "carom/numerics/tolerance.hpp"
+
+#include "geometry/features.hpp"
+#include "narrow/candidates.hpp"
+#include "narrow/normal_cone.hpp"
+#include "narrow/routines.hpp"
+#include "narrow/support_face.hpp"
+
+namespace carom {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A curved body in the frame of a surface.
+struct Test {
+  const Convex& body;
+  const Frame& frame;  // of the body, in the surface
+  const MeshSurface& surface;
+  double margin, range;
+  std::vector<Candidate>& out;
+
+  Vector3d to_body(const Vector3d& direction) const {
+    return frame.rotation.transpose() * direction;
+  }
+  /// A point of the core, if the surface nearest to it faces along n.
+  bool hold(const Vector3d& core_point, const Vector3d& n, std::uint32_t name) const {
+    const double reach = margin + body.radius + range;
+    const SurfacePoint q = closest_point(surface, core_point, reach);
+    if (q.face < 0 || (q.normal - n).norm() > tolerance::normal_cone) return false;
+    const double gap = q.distance - body.radius;
+    if (gap <= margin)
+      out.push_back({q.normal,
+                     {core_point - (body.radius + 0.5 * gap) * q.normal, gap,
+                      feature::pair(q.feature, name)}});
+    return true;
+  }
+  void face(int f) const {
+    thread_local Face patch;
+    const Vector3d& n = surface.face_normals[f];
+    const Vector3d down = -to_body(n), tip = frame * body.support(down);
+    const double gap = n.dot(tip - surface.corner(f, 0)) - body.radius;
+    if (gap > margin || gap < -range) return;
+    hold(tip, n, feature::curve(6));
+    support_face(body, down, frame, patch);
+    for (std::size_t i = 0; i < patch.points.size() && patch.points.size() > 1; ++i)
+      hold(patch.points[i] + body.radius * n, n, patch.vertex_features[i]);
+  }
+  void edge(int e) const {
+    const auto& edge = surface.edges[e];
+    const Vector3d p = surface.vertex(edge.v0), q = surface.vertex(edge.v1);
+    const Convex segment = Convex::segment(p, q);
+    const Separation s = separation(segment, body, frame, margin);
+    if (s.status == SeparationStatus::beyond || s.distance > margin || s.distance < -range) return;
+    if (!in_cone_of_edge(surface, e, s.normal)) return;
+    const double t = (s.point_a - p).dot(q - p) / (q - p).squaredNorm();
+    if (!(t > tolerance::normal_cone && t < 1 - tolerance::normal_cone)) return;
+    add(s, feature::edge(e));
+  }
+  void vertex(int v) const {
+    const Separation s = separation(Convex::point(surface.vertex(v)), body, frame, margin);
+    if (s.status == SeparationStatus::beyond || s.distance > margin || s.distance < -range) return;
+    if (in_cone_of_vertex(surface, v, s.normal)) add(s, feature::vertex(v));
+  }
+  void add(const Separation& s, std::uint32_t of_surface) const {
+    out.push_back({s.normal,
+                   {0.5 * (s.point_a + s.point_b), s.distance,
+                    feature::pair(of_surface, feature::curve(5))}});
+  }
+};
+
+Aabb bounds_of(const Convex& body, const Frame& frame) {
+  Aabb box;
+  for (int i = 0; i < 3; ++i)
+    for (double sign : {-1.0, 1.0}) {
+      const Vector3d d = sign * frame.rotation.row(i).transpose();
+      const double h = (frame * body.support(d))[i] + sign * body.radius;
+      (sign < 0 ? box.lower : box.upper)[i] = h;
+    }
+  return box;
+}
+
+}  // namespace
+
+void surface_convex(const MeshSurface& a, const Convex& b, const Frame& b_in_a, double margin,
+                    std::vector<Manifold>& out) {
+  thread_local std::vector<Candidate> found;
+  thread_local std::vector<int> faces, edges, vertices;
+  found.clear();
+  for (auto* list : {&faces, &edges, &vertices}) list->clear();
+  const Aabb box = bounds_of(b, b_in_a);
+  const Aabb region = box.inflated(margin);
+  a.tree.query([&](const Aabb& node) { return node.overlaps(region); },
+               [&](int f) {
+                 if (a.face_normals[f].isZero(0)) return;
+                 faces.push_back(a.face_cluster[f]);
+                 for (int k = 0; k < 3; ++k) {
+                   const int e = a.face_edges[f][k];
+                   if (e >= 0 && a.edges[e].bend == MeshSurface::Bend::convex) edges.push_back(e);
+                   if (const int v = a.mesh.faces(f, k); a.vertex_sharp[v]) vertices.push_back(v);
+                 }
+               });
+  for (auto* list : {&faces, &edges, &vertices}) {
+    std::ranges::sort(*list);
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  const double range = 0.5 * box.extents().minCoeff();
+  const Test test{b, b_in_a, a, margin, range, found};
+  for (int f : faces) test.face(f);
+  for (int e : edges) {
+    const auto& edge = a.edges[e];
+    const Vector3d p = a.vertex(edge.v0), q = a.vertex(edge.v1);
+    if (region.overlaps({p.cwiseMin(q), p.cwiseMax(q)})) test.edge(e);
+  }
+  for (int v : vertices)
+    if (squared_distance(box, a.vertex(v)) <= margin * margin) test.vertex(v);
+  if (found.empty()) {  // deeper than any local way out: the middle of the body decides
+    const Vector3d centre = b_in_a.translation;
+    const SurfacePoint q = closest_point(a, centre, std::numeric_limits<double>::infinity());
+    if (q.face >= 0 && q.distance < 0) {
+      const Vector3d tip = b_in_a * b.support(-(b_in_a.rotation.transpose() * q.normal));
+      const double gap = q.distance + q.normal.dot(tip - centre) - b.radius;
+      found.push_back({q.normal,
+                       {centre - 0.5 * q.distance * q.normal, gap,
+                        feature::pair(q.feature, feature::curve(4))}});
+    }
+  }
+  emit(found, tolerance::same_normal, out);
+}
+
+}  // namespace carom

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "narrow/patch.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "carom/numerics/tolerance.hpp"
+
+namespace carom {
+namespace {
+
+/// Index of the largest score; of scores equal to within `slack` the deepest, of those the one with
+/// the lowest feature: a choice that rounding cannot turn.
+template <class Score>
+int best(std::span<const ContactPoint> points, double slack, double depth_slack,
+         const Score& score) {
+  double top = -std::numeric_limits<double>::infinity(), depth = -top;
+  for (const ContactPoint& p : points) top = std::max(top, score(p));
+  for (const ContactPoint& p : points)
+    if (score(p) >= top - slack) depth = std::min(depth, p.separation);
+  int chosen = -1;
+  for (int i = 0; i < static_cast<int>(points.size()); ++i)
+    if (score(points[i]) >= top - slack && points[i].separation <= depth + depth_slack &&
+        (chosen < 0 || points[i].feature < points[chosen].feature))
+      chosen = i;
+  return chosen;
+}
+
+}  // namespace
+
+void reduce(std::span<const ContactPoint> points, const Eigen::Vector3d& normal, Manifold& out) {
+  out.normal = normal;
+  out.count = 0;
+  if (points.size() <= out.points.size()) {
+    for (const ContactPoint& p : points) out.points[out.count++] = p;
+    return;
+  }
+  Eigen::Vector3d lower = points[0].position, upper = lower;
+  for (const ContactPoint& p : points) {
+    lower = lower.cwiseMin(p.position);
+    upper = upper.cwiseMax(p.position);
+  }
+  const double size = (upper - lower).norm(), slack = tolerance::equally_deep * size;
+  const auto keep = [&](int i) { out.points[out.count++] = points[i]; };
+
+  double depth = std::numeric_limits<double>::infinity();
+  for (const ContactPoint& p : points) depth = std::min(depth, p.separation);
+  const Eigen::Vector3d centre = 0.5 * (lower + upper);
+  keep(best(points, slack, slack, [&](const ContactPoint& p) {  // of the deepest, the farthest out
+    return p.separation <= depth + slack ? (p.position - centre).norm() : -1.0;
+  }));
+  const Eigen::Vector3d a = out.points[0].position;
+  keep(best(points, slack, slack, [&](const ContactPoint& p) { return (p.position - a).norm(); }));
+  const Eigen::Vector3d ab = out.points[1].position - a;
+  const auto area = [&](const ContactPoint& p) { return normal.dot(ab.cross(p.position - a)); };
+  const double thin = slack * size;
+  const int left = best(points, thin, slack, area);
+  const int right = best(points, thin, slack, [&](const ContactPoint& p) { return -area(p); });
+  if (area(points[left]) > thin) keep(left);
+  if (area(points[right]) < -thin) keep(right);
+  if (out.count < 4 && out.count > 2) {  // one side only: the corner that adds most to the triangle
+    const Eigen::Vector3d c = out.points[2].position;
+    const auto outside = [&](const ContactPoint& p) {
+      const Eigen::Vector3d b = out.points[1].position;
+      const double turn = area(out.points[2]) > 0 ? 1 : -1;
+      return std::max(turn * normal.dot((p.position - b).cross(c - b)),
+                      turn * normal.dot((p.position - c).cross(a - c)));
+    };
+    const int fourth = best(points, thin, slack, outside);
+    if (outside(points[fourth]) > thin) keep(fourth);
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "carom/scene/scene.hpp"
+
+#include <algorithm>
+
+#include "carom/numerics/invalid_input.hpp"
+#include "carom/numerics/rotation.hpp"
+
+namespace carom {
+namespace {
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+bool is_name(std::string_view name) {
+  return !name.empty() && is_letter(name[0]) && std::ranges::all_of(name, [](char c) {
+    return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+void require_finite(const Eigen::Vector3d& v, const std::string& field, std::string_view unit) {
+  if (!v.allFinite()) throw InvalidInput(field, with_unit(v.transpose(), unit), "must be finite");
+}
+
+void require_valid_mass(const BodyDefinition& body) {
+  const int given = int{body.mass.has_value()} + int{body.density.has_value()} +
+                    int{body.mass_properties.has_value()};
+  if (given > 1)
+    throw InvalidInput(body.name + ".mass", std::to_string(given) + " ways",
+                       "give one of mass, density and mass_properties");
+  if (body.mass)
+    require_positive(*body.mass, body.name + ".mass", "kg", "give density or set static");
+  if (body.density) require_positive(*body.density, body.name + ".density", "kg/m^3");
+  if (body.mass_properties)
+    require_positive(body.mass_properties->mass, body.name + ".mass_properties.mass", "kg");
+  if (std::holds_alternative<Plane>(body.shape) && !body.is_static)
+    throw InvalidInput(body.name + ".shape", "plane", "cannot move", "set static");
+  if (std::holds_alternative<HeightField>(body.shape) && !body.is_static)
+    throw InvalidInput(body.name + ".shape", "height field", "cannot move", "set static");
+}
+
+void require_valid(const BodyDefinition& body) {
+  if (!is_name(body.name))
+    throw InvalidInput("name", "'" + body.name + "'", "must match [A-Za-z][A-Za-z0-9_]*");
+  require_valid(body.shape, body.name + ".shape");
+  require_valid_mass(body);
+  require_finite(body.pose.position, body.name + ".position", "m");
+  (void)unit_quaternion(body.pose.orientation.coeffs(), body.name + ".orientation");
+  require_finite(body.velocity, body.name + ".velocity", "m/s");
+  require_finite(body.angular_velocity, body.name + ".angular_velocity", "rad/s");
+  require_non_negative(body.friction, body.name + ".friction", "");
+  if (!(body.restitution >= 0 && body.restitution <= 1))
+    throw InvalidInput(body.name + ".restitution", with_unit(body.restitution, ""),
+                       "must be from 0 to 1");
+  require_non_negative(body.rolling_resistance, body.name + ".rolling_resistance", "m");
+  require_non_negative(body.spinning_resistance, body.name + ".spinning_resistance", "m");
+  if (body.is_static && (!body.velocity.isZero(0) || !body.angular_velocity.isZero(0)))
+    throw InvalidInput(body.name + ".velocity", with_unit(body.velocity.transpose(), "m/s"),
+                       "must be 0 for a static body");
+}
+
+}  // namespace
+
+MassProperties mass_properties(const BodyDefinition& body) {
+  if (body.is_static) return {};
+  if (body.mass_properties) return *body.mass_properties;
+  MassProperties properties = mass_properties(body.shape, body.density.value_or(default_density));
+  if (body.mass) {  // inertia scales with mass at a given shape
+    properties.inertia *= *body.mass / properties.mass;
+    properties.mass = *body.mass;
+  }
+  return properties;
+}
+
+BodyId Scene::add(BodyDefinition body) {
+  const BodyId id{next_id_};
+  if (body.name.empty()) body.name = "body_" + std::to_string(id.value);
+  require_valid(body);
+  if (find(body.name))
+    throw InvalidInput("name", "'" + body.name + "'", "is taken", "names are unique in a scene");
+  body.pose.orientation.normalize();
+  const MassProperties properties = mass_properties(body);
+  bodies.push_back({std::move(body), id, properties});
+  ++next_id_;
+  return id;
+}
+
+void Scene::remove(BodyId id) {
+  const std::optional<int> i = row(id);
+  if (!i) throw InvalidInput("body", std::to_string(id.value), "is not in the scene");
+  bodies.erase(bodies.begin() + *i);
+  std::erase_if(effects, [&](const Effect& effect) { return body_of(effect) == id; });
+}
+
+std::optional<BodyId> Scene::find(std::string_view name) const {
+  const auto it = std::ranges::find(bodies, name, &Body::name);
+  return it == bodies.end() ? std::nullopt : std::optional(it->id);
+}
+
+std::optional<int> Scene::row(BodyId id) const {
+  const auto it = std::ranges::lower_bound(bodies, id, {}, &Body::id);
+  if (it == bodies.end() || it->id != id) return std::nullopt;
+  return static_cast<int>(it - bodies.begin());
+}
+
+}  // namespace carom

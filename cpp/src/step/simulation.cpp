@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "carom/step/simulation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "carom/numerics/invalid_input.hpp"
+#include "carom/numerics/tolerance.hpp"
+
+#include "step/world.hpp"
+
+namespace carom {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+using Run = void (*)(World&);
+constexpr Run runners[] = {run_gravity, run_applied_wrench, run_drag,  run_torsion,
+                           run_pairs,   run_contacts,       run_solve, run_integrate};
+
+/// Impulses act at once, before the forces: a body hit now moves at its new speed through the step.
+void take_impulses(World& world) {
+  BodyStates& s = world.states;
+  for (Request& r : world.requests) {
+    if (!s.moves[r.row]) continue;
+    const double before = s.kinetic_energy(r.row);
+    s.velocity.set(r.row, s.velocity[r.row] + s.inverse_mass[r.row] * r.impulse);
+    s.angular_momentum.set(r.row, s.angular_momentum[r.row] + r.angular_impulse);
+    world.work += s.kinetic_energy(r.row) - before;
+  }
+}
+
+void refresh_plan(World& world) {
+  if (!world.plan_is_stale) return;
+  world.plan = compile(world.scene, !world.requests.empty());
+  if (!world.asleep.empty())
+    std::erase_if(world.plan.movers, [&](int i) { return !world.states.moves[i]; });
+  world.plan_is_stale = false;
+}
+
+StageTime& time_of(Report& report, std::string_view stage) {
+  const auto it = std::ranges::find(report.stages, stage, &StageTime::stage);
+  if (it != report.stages.end()) return *it;
+  return report.stages.emplace_back(StageTime{std::string(stage), 0, 0});
+}
+
+void run_step(World& world, double dt) {
+  refresh_plan(world);
+  world.dt = dt;
+  take_impulses(world);
+  world.velocity_before = world.states.velocity;
+  world.angular_momentum_before = world.states.angular_momentum;
+  world.has_mean_momentum.clear();
+  for (const Stage& stage : world.plan.stages) {
+    if (!stage.on) continue;
+    const Clock::time_point start = Clock::now();
+    runners[static_cast<int>(stage.kind)](world);
+    StageTime& time = time_of(world.report, name_of(stage.kind));
+    time.seconds += seconds_since(start);
+    time.bodies = stage.bodies;
+  }
+  if (!world.plan.runs(StageKind::contacts)) world.contacts.clear();
+  fall_asleep(world);
+  world.clock.tick(dt);
+  world.report.time = world.clock.now();
+  world.report.simulated += dt;
+  ++world.report.steps;
+}
+
+/// The totals of two moments, as what happened between them.
+Report difference(const Report& now, const Report& then) {
+  Report r = now;
+  r.simulated -= then.simulated;
+  r.steps -= then.steps;
+  r.wall_seconds -= then.wall_seconds;
+  r.contact.iterations -= then.contact.iterations;
+  r.contact.gave_up -= then.contact.gave_up;
+  r.rotation.capped -= then.rotation.capped;
+  r.rotation.clamped -= then.rotation.clamped;
+  r.rotation.not_converged -= then.rotation.not_converged;
+  for (StageTime& stage : r.stages)
+    for (const StageTime& before : then.stages)
+      if (before.stage == stage.stage) stage.seconds -= before.seconds;
+  return r;
+}
+
+}  // namespace
+
+Simulation::Simulation(Scene scene, SimulationOptions options) : world_(std::make_unique<World>()) {
+  require_positive(options.dt, "dt", "s");
+  for (std::size_t i = 0; i < scene.effects.size(); ++i) {
+    const std::string field = "effects[" + std::to_string(i) + "]";
+    require_valid(scene.effects[i], field);
+    const std::optional<BodyId> body = body_of(scene.effects[i]);
+    if (body && !scene.row(*body))
+      throw InvalidInput(field + ".body", std::to_string(body->value), "is not in the scene");
+  }
+  for (const Scene::Body& body : scene.bodies)
+    world_->states.push_back(body.properties, !body.is_static, body.pose, body.velocity,
+                             body.angular_velocity);
+  world_->scene = std::move(scene);
+  world_->options = options;
+  refresh_plan(*world_);
+}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::step(std::optional<double> dt) {
+  const double h = dt.value_or(world_->options.dt);
+  require_non_negative(h, "dt", "s", "time only runs forward");
+  if (h == 0) return;
+  const Clock::time_point start = Clock::now();
+  run_step(*world_, h);
+  world_->report.wall_seconds += seconds_since(start);
+}
+
+Report Simulation::advance(double seconds) {
+  require_non_negative(seconds, "seconds", "s", "time only runs forward");
+  const Report before = world_->report;
+  world_->report.contact.deepest_overlap = world_->report.contact.residual = 0;
+  const double end = before.time + seconds;
+  // Equal steps that land on the end; a ratio that is whole but for rounding is not split once
+  // more.
+  const double ratio = seconds / world_->options.dt;
+  const double whole = std::round(ratio);
+  const auto n = static_cast<std::int64_t>(
+      std::abs(ratio - whole) <= 4 * tolerance::unit_roundoff * ratio ? whole : std::ceil(ratio));
+  for (std::int64_t k = 0; k < n; ++k) step(seconds / static_cast<double>(n));
+  world_->clock.set(end);
+  world_->report.time = end;
+  Report report = difference(world_->report, before);
+  ContactReport& total = world_->report.contact;
+  total.deepest_overlap = std::max(total.deepest_overlap, before.contact.deepest_overlap);
+  total.residual = std::max(total.residual, before.contact.residual);
+  return report;
+}
+
+int Simulation::size() const {
+  return world_->states.size();
+}
+double Simulation::time() const {
+  return world_->report.time;
+}
+double Simulation::dt() const {
+  return world_->options.dt;
+}
+const Scene& Simulation::scene() const {
+  return world_->scene;
+}
+const Plan& Simulation::plan() const {
+  refresh_plan(*world_);
+  return world_->plan;
+}
+const BodyStates& Simulation::states() const {
+  return world_->states;
+}
+const Report& Simulation::report() const {
+  return world_->report;
+}
+std::span<const Contact> Simulation::contacts() const {
+  return world_->contacts;
+}
+
+}  // namespace carom

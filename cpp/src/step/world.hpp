@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vector>
+
+#include "carom/broad/box_tree.hpp"
+#include "carom/contact/solver.hpp"
+#include "carom/narrow/contacts.hpp"
+#include "carom/scene/scene.hpp"
+#include "carom/state/body_states.hpp"
+#include "carom/state/report.hpp"
+#include "carom/step/plan.hpp"
+#include "carom/step/simulation.hpp"
+
+#include "contact/manifold_cache.hpp"
+
+namespace carom {
+
+/// A force or an impulse asked for the next step, at the centre of mass, world axes.
+struct Request {
+  int row = 0;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_impulse = Eigen::Vector3d::Zero();
+};
+
+/// Simulated time as whole steps since the length of a step last changed: a sum would lose dt in a
+/// long run, and end a step early or late in a short one.
+struct SimulatedClock {
+  double base = 0, dt = 0;
+  std::int64_t ticks = 0;
+
+  void set(double time) { *this = {time, 0, 0}; }
+  [[nodiscard]] double now() const { return base + static_cast<double>(ticks) * dt; }
+  void tick(double step) {
+    if (step != dt) *this = {now(), step, 0};
+    ++ticks;
+  }
+};
+
+/// What the stages of a step share. Scratch keeps its capacity: a warm step allocates nothing.
+struct World {
+  Scene scene;
+  SimulationOptions options;
+  BodyStates states;
+  Plan plan;
+  bool plan_is_stale = true;
+  std::vector<Request> requests;
+  SimulatedClock clock;
+  Report report;
+  double dissipated = 0, work = 0;  ///< J since the start
+
+  // of the step under way
+  double dt = 0;
+  Array3 velocity_before;          ///< before the forces: their mean is exact for constant forces
+  Array3 angular_momentum_before;  ///< the same of rotation
+  Array3 turning_momentum;         ///< scratch: the mean of both
+  ContactSolver solver;
+  Array3 mean_velocity;  ///< of rows whose drag knows it better
+  Array3 mean_momentum;  ///< of rows whose drag or spring knows it better
+  std::vector<std::uint8_t> has_mean_momentum;
+  Array4 orientation_halfway;  ///< of rows with rotational drag
+  contact::ManifoldCache manifold_cache;
+  std::vector<std::uint8_t> asleep;      ///< by row; empty while nothing sleeps
+  std::vector<std::int32_t> bed;         ///< by row: the island it fell asleep with
+  std::vector<double> still;             ///< s, by row: time below the speed of sleep
+  std::vector<double> island_still;      ///< scratch: by lowest row
+  std::vector<Contact> asleep_contacts;  ///< what they start from when they wake
+  std::vector<Aabb> boxes;
+  std::vector<double> reach;        ///< m a point of the body can travel in the step
+  BoxTree box_tree;                 ///< keeps the pairs of the step
+  std::vector<Manifold> manifolds;  ///< of the pair at hand
+  std::vector<Contact> contacts, contacts_before;
+  std::vector<std::size_t> warm;
+};
+
+/// Rotation vector of the spring's body from its rest, rad, world axes.
+[[nodiscard]] Eigen::Vector3d twist_of(const World& world, const TorsionSpring& spring);
+
+// The stages, one file each.
+void run_gravity(World& world);
+void run_applied_wrench(World& world);
+void run_drag(World& world);
+void run_torsion(World& world);
+void run_pairs(World& world);
+void run_contacts(World& world);
+void run_solve(World& world);
+void run_integrate(World& world);
+
+/// Lets islands sleep that have been still for long enough. After the step.
+void fall_asleep(World& world);
+/// Wakes the island the row sleeps with; every one for row -1.
+void wake(World& world, int row);
+/// Wakes what something awake may touch in this step. True when the pairs must be found again.
+[[nodiscard]] bool wake_touched(World& world);
+
+}  // namespace carom

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+// Trees of every kind and the grid answer as a loop over all faces does, to the bit.
+#include <Eigen/Geometry>
+
+#include "carom/broad/bvh.hpp"
+#include "carom/broad/grid.hpp"
+#include "carom/numerics/invalid_input.hpp"
+
+#include "broad/meshes.hpp"
+
+namespace carom {
+namespace {
+
+using namespace testing;
+
+void expect_all_agree(const TriangleMesh& mesh, int queries, unsigned seed) {
+  Random random(seed);
+  const Queries q(mesh, queries, random);
+  const AllFaces truth(mesh.vertices, mesh.faces);
+  for (const Quality quality : {Quality::low, Quality::medium, Quality::high})
+    expect_same(Bvh(mesh.vertices, mesh.faces, Volume::box, quality), truth, q, "boxes");
+  expect_same(Bvh(mesh.vertices, mesh.faces, Volume::sphere), truth, q, "spheres");
+  expect_same(Bvh(mesh.vertices, mesh.faces, Volume::oriented_box), truth, q, "oriented boxes");
+  expect_same(HashGrid(mesh.vertices, mesh.faces), truth, q, "grid");
+}
+
+TEST(MeshIndex, AgreesWithAllFacesOnSoup) {
+  Random random(1);
+  for (const int n : {1, 2, 4, 5, 9, 33, 700}) expect_all_agree(soup(n, 10, 1, random), 300, 2);
+}
+
+TEST(MeshIndex, AgreesOnClosedSurfaces) {
+  expect_all_agree(bumpy_sphere(16, 0.2), 600, 3);
+}
+
+TEST(MeshIndex, AgreesFarFromTheOrigin) {
+  TriangleMesh mesh = bumpy_sphere(10, 0.2);
+  mesh.vertices.array() += 1e8;
+  expect_all_agree(mesh, 300, 4);
+  mesh.vertices.array() -= 1e8;
+  mesh.vertices.col(1).array() -= 1e8;
+  expect_all_agree(mesh, 300, 5);
+}
+
+TEST(MeshIndex, AgreesAtAllScales) {
+  for (const double scale : {1e-30, 1e-9, 1e9, 1e30}) {
+    TriangleMesh mesh = bumpy_sphere(8, 0.2);
+    mesh.vertices *= scale;
+    expect_all_agree(mesh, 200, 6);
+  }
+}
+
+TEST(MeshIndex, AgreesOnNeedlesPointsAndFlatFaces) {
+  Random random(7);
+  TriangleMesh mesh = soup(400, 10, 1, random);
+  for (int f = 0; f < 400; ++f) {
+    const auto row = [&](int v) { return mesh.vertices.row(3 * f + v); };
+    if (f % 4 == 0) row(2) = row(1) + random.point(-1e-12, 1e-12);              // needle
+    if (f % 4 == 1) row(2) = row(1) = row(0);                                   // point
+    if (f % 4 == 2) row(0)[2] = row(1)[2] = row(2)[2] = std::round(row(0)[2]);  // in a plane
+    if (f % 8 == 3) row(2) = 0.5 * (row(0) + row(1));                           // a line
+  }
+  expect_all_agree(mesh, 400, 8);
+}
+
+TEST(MeshIndex, AgreesOnMixedSizes) {
+  Random random(9);
+  TriangleMesh mesh = soup(500, 10, 0.1, random);
+  for (int f = 0; f < 500; f += 50) mesh.vertices.middleRows(3 * f, 3) *= 30;
+  for (int f = 1; f < 500; f += 7) {
+    const Eigen::RowVector3d c = mesh.vertices.row(3 * f);
+    for (int v = 1; v < 3; ++v)
+      mesh.vertices.row(3 * f + v) = c + 1e-6 * (mesh.vertices.row(3 * f + v) - c);
+  }
+  expect_all_agree(mesh, 400, 10);
+}
+
+TEST(MeshIndex, BuildsFromAHundredThousandEqualFaces) {
+  // Case C16: no split can part them. Depth stays within its bound and queries still answer.
+  constexpr int n = 100000;
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, 3);
+  mesh.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  mesh.faces.resize(n, 3);
+  for (int f = 0; f < n; ++f) mesh.faces.row(f) << 0, 1, 2;
+  TriangleMesh::Vertices start(1, 3), end(1, 3);
+  start << 0.2, 0.2, 1;
+  end << 0.2, 0.2, -1;
+  for (const Quality quality : {Quality::low, Quality::medium, Quality::high}) {
+    const Bvh tree(mesh.vertices, mesh.faces, Volume::box, quality);
+    EXPECT_LE(tree.depth(), 64);
+    const SegmentHit hit = tree.segments(start, end).front();
+    EXPECT_EQ(hit.face, 0);
+    EXPECT_EQ(hit.fraction, 0.5);
+    EXPECT_EQ(tree.overlaps(end, start.cwiseMax(end)).faces.size(), 0U + n);
+  }
+  const HashGrid grid(mesh.vertices, mesh.faces);
+  EXPECT_EQ(grid.segments(start, end).front().face, 0);
+}
+
+TEST(MeshIndex, StaysShallowForNestedSizes) {
+  // Every split by area peels one face off: without a bound the depth would be the face count.
+  constexpr int n = 900;
+  TriangleMesh mesh;
+  mesh.vertices.resize(3 * n, 3);
+  mesh.faces.resize(n, 3);
+  for (int f = 0; f < n; ++f) {
+    const double s = std::pow(2.0, -f);
+    mesh.vertices.middleRows(3 * f, 3) << s, 0, 0, 1.5 * s, 0, 0, s, 0.2 * s, 0.1 * s;
+    mesh.faces.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
+  }
+  EXPECT_LE(Bvh(mesh.vertices, mesh.faces).depth(), 64);
+  expect_all_agree(mesh, 200, 11);
+}
+
+TEST(MeshIndex, HoldsNoFacesAtAll) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(0, 3);
+  mesh.faces.resize(0, 3);
+  expect_all_agree(mesh, 20, 12);
+}
+
+TEST(MeshIndex, LeaksNothingThroughEdgesAndCorners) {
+  // From the centre every ray must hit a closed surface: aimed exactly at vertices and at points of
+  // edges, where single roundings decide between two faces.
+  const TriangleMesh mesh = bumpy_sphere(40, 0.1);
+  const int n = static_cast<int>(mesh.faces.rows());
+  TriangleMesh::Vertices from = TriangleMesh::Vertices::Zero(4 * n, 3), to(4 * n, 3);
+  Random random(13);
+  for (int f = 0; f < n; ++f) {
+    const auto corner = [&](int v) { return mesh.vertices.row(mesh.faces(f, v % 3)); };
+    to.row(4 * f) = corner(f);
+    for (int e = 0; e < 3; ++e) {
+      const double w = random.uniform(0, 1);
+      to.row(4 * f + 1 + e) = w * corner(e) + (1 - w) * corner(e + 1);
+    }
+  }
+  for (const double shift : {0.0, 100.0, 1e6}) {
+    const TriangleMesh::Vertices moved = mesh.vertices.array() + shift;
+    const TriangleMesh::Vertices start = from.array() + shift;
+    const Bvh tree(moved, mesh.faces);
+    const HashGrid grid(moved, mesh.faces);
+    int missed = 0;
+    for (const std::uint8_t hit : tree.any_hit(start, to)) missed += hit == 0;
+    for (const std::uint8_t hit : grid.any_hit(start, to)) missed += hit == 0;
+    EXPECT_EQ(missed, 0) << shift;
+  }
+}
+
+TEST(MeshIndex, GivesTheClosedFormsOfASquare) {
+  // Two triangles of the unit square z = 0.
+  TriangleMesh mesh;
+  mesh.vertices.resize(4, 3);
+  mesh.vertices << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
+  mesh.faces.resize(2, 3);
+  mesh.faces << 0, 1, 2, 0, 2, 3;
+  const Bvh tree(mesh.vertices, mesh.faces);
+  TriangleMesh::Vertices o(4, 3), d(4, 3);
+  o << 0.7, 0.2, 3, 0.2, 0.7, -2, 0.5, 0.5, 1, 2, 2, 1;
+  d << 0, 0, -2, 0, 0, 1, 0, 0, -1, 0, 0, -1;
+  const auto hits = tree.raycast(o, d);
+  EXPECT_EQ(hits[0].face, 0);
+  EXPECT_EQ(hits[0].distance, 3);
+  EXPECT_EQ(hits[1].face, 1);
+  EXPECT_EQ(hits[1].distance, 2);
+  EXPECT_EQ(hits[2].face, 0) << "of two faces at one distance the lower";
+  EXPECT_EQ(hits[3].face, -1);
+  EXPECT_EQ(tree.raycast(o, d, 2.999).front().face, -1);
+  EXPECT_EQ(tree.raycast(o, d, 3).front().face, 0) << "the distance is inclusive";
+  TriangleMesh::Vertices p(3, 3);
+  p << 0.25, 0.5, -2, 4, 5, 0, -3, 0.5, 4;
+  const auto near = tree.closest(p);
+  // Distances 2, 5 and 5 are exact; the sums and roots behind them round to them within 1 ulp.
+  EXPECT_DOUBLE_EQ(near[0].distance, 2);
+  EXPECT_DOUBLE_EQ(near[1].distance, 5);
+  EXPECT_DOUBLE_EQ(near[2].distance, 5);
+  EXPECT_EQ(near[1].point, Eigen::Vector3d(1, 1, 0));
+}
+
+TEST(MeshIndex, TimesAreThoseOfExtendedPrecision) {
+  Random random(14);
+  const TriangleMesh mesh = soup(300, 4, 1, random);
+  const AllFaces all(mesh.vertices, mesh.faces);
+  using Vector = Eigen::Matrix<long double, 3, 1>;
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const TriangleMesh::Vertices a = random.point(0, 4), b = random.point(0, 4);
+    const SegmentHit hit = all.segments(a, b).front();
+    // Moller and Trumbore (1997), another route, in 64-bit mantissas.
+    const Vector o = a.row(0).transpose().cast<long double>();
+    const Vector d = b.row(0).transpose().cast<long double>() - o;
+    long double best = 2;
+    long double slack = 1;
+    for (int f = 0; f < 300; ++f) {
+      const Vector v = mesh.vertices.row(3 * f).transpose().cast<long double>();
+      const Vector e1 = mesh.vertices.row(3 * f + 1).transpose().cast<long double>() - v;
+      const Vector e2 = mesh.vertices.row(3 * f + 2).transpose().cast<long double>() - v;
+      const Vector n = d.cross(e2), s = o - v, m = s.cross(e1);
+      const long double det = e1.dot(n), u = s.dot(n) / det, w = d.dot(m) / det;
+      const long double t = e2.dot(m) / det;
+      if (u >= 0 && w >= 0 && u + w <= 1 && t >= 0 && t <= 1 && t < best) {
+        best = t;
+        // Sum of terms of size |e|^2 |d| against the determinant: the condition of t.
+        slack = e1.norm() * e2.norm() * d.norm() / std::abs(det);
+      }
+    }
+    if (best > 1) {
+      EXPECT_EQ(hit.face, -1);
+      continue;
+    }
+    ++hits;
+    // About 30 rounded operations on numbers of that condition, coordinates up to 4 lengths.
+    EXPECT_NEAR(hit.fraction, static_cast<double>(best),
+                static_cast<double>(30 * 4 * slack) * 1e-16);
+  }
+  EXPECT_GT(hits, 500);
+}
+
+TEST(MeshIndex, RefusesWhatItCannotUse) {
+  TriangleMesh mesh = bumpy_sphere(6, 0);
+  TriangleMesh::Vertices bad = mesh.vertices;
+  bad(3, 1) = std::nan("");
+  EXPECT_THROW(Bvh(bad, mesh.faces), InvalidInput);
+  EXPECT_THROW(HashGrid(bad, mesh.faces), InvalidInput);
+  bad(3, 1) = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(Bvh(bad, mesh.faces), InvalidInput);
+  TriangleMesh::Faces faces = mesh.faces;
+  faces(2, 0) = static_cast<int>(mesh.vertices.rows());
+  EXPECT_THROW(Bvh(mesh.vertices, faces), InvalidInput);
+  faces(2, 0) = -1;
+  EXPECT_THROW(HashGrid(mesh.vertices, faces), InvalidInput);
+  const Bvh tree(mesh.vertices, mesh.faces);
+  TriangleMesh::Vertices one = TriangleMesh::Vertices::Ones(1, 3);
+  EXPECT_THROW((void)tree.raycast(one, 0 * one), InvalidInput);
+  EXPECT_THROW((void)tree.raycast(one, one, -1), InvalidInput);
+  EXPECT_THROW((void)tree.raycast(one, one, std::nan("")), InvalidInput);
+  EXPECT_THROW((void)tree.raycast(one, mesh.vertices), InvalidInput);
+  TriangleMesh::Vertices nan = one * std::nan("");
+  EXPECT_THROW((void)tree.closest(nan), InvalidInput);
+  EXPECT_THROW((void)tree.overlaps(nan, one), InvalidInput);
+  EXPECT_THROW((void)tree.segments(nan, one), InvalidInput);
+  EXPECT_THROW(HashGrid(mesh.vertices, mesh.faces, 0.0), InvalidInput);
+  EXPECT_THROW(HashGrid(mesh.vertices, mesh.faces, 1e-9), InvalidInput);
+}
+
+TEST(HashGrid, AgreesAtEveryCellSize) {
+  const TriangleMesh mesh = bumpy_sphere(12, 0.2);
+  Random random(15);
+  const Queries q(mesh, 300, random);
+  const AllFaces truth(mesh.vertices, mesh.faces);
+  for (const double size : {0.01, 0.1, 0.37, 1.0, 5.0, 1e6})
+    expect_same(HashGrid(mesh.vertices, mesh.faces, size), truth, q, "grid");
+}
+
+TEST(Bvh, AnswersForMovedVerticesAfterRefit) {
+  const TriangleMesh mesh = bumpy_sphere(16, 0.2);
+  Random random(16);
+  for (const Volume volume : {Volume::box, Volume::sphere, Volume::oriented_box})
+    for (const Quality quality : {Quality::low, Quality::medium}) {
+      Bvh tree(mesh.vertices, mesh.faces, volume, quality);
+      TriangleMesh::Vertices moved = mesh.vertices;
+      for (int step = 0; step < 4; ++step) {
+        for (Eigen::Index v = 0; v < moved.rows(); ++v) moved.row(v) += random.point(-0.05, 0.05);
+        if (step == 2) moved.array() += 1e5;
+        tree.refit(moved);
+        const Queries q({moved, mesh.faces}, 150, random);
+        expect_same(tree, AllFaces(moved, mesh.faces), q, "after refit");
+      }
+    }
+}
+
+TEST(Bvh, RebuildsOnlyThePartThatTheMotionSpoilt) {
+  // One patch of a soup is shuffled; the rest lies still.
+  Random random(17);
+  TriangleMesh mesh = soup(6000, 20, 0.2, random);
+  Bvh tree(mesh.vertices, mesh.faces);
+  tree.refit(mesh.vertices);
+  EXPECT_EQ(tree.rebuilt_parts(), 0) << "nothing moved";
+  mesh.vertices *= 3;
+  mesh.vertices.array() += 7;
+  tree.refit(mesh.vertices);
+  EXPECT_EQ(tree.rebuilt_parts(), 0) << "growth and shift of the whole spoil nothing";
+  for (int f = 0; f < 6000; ++f) {
+    if (mesh.vertices(3 * f, 0) > 22 || mesh.vertices(3 * f, 1) > 22) continue;
+    const Eigen::RowVector3d to = random.point(7, 22) - mesh.vertices.row(3 * f);
+    for (int v = 0; v < 3; ++v) mesh.vertices.row(3 * f + v) += to;
+  }
+  tree.refit(mesh.vertices);
+  EXPECT_GT(tree.rebuilt_parts(), 0);
+  const Queries q(mesh, 60, random);
+  expect_same(tree, AllFaces(mesh.vertices, mesh.faces), q, "after mending");
+}
+
+TEST(Bvh, RefusesToRefitAnotherMeshAndStaysAsItWas) {
+  const TriangleMesh mesh = bumpy_sphere(8, 0.1);
+  Random random(18);
+  const Queries q(mesh, 60, random);
+  Bvh tree(mesh.vertices, mesh.faces);
+  TriangleMesh::Vertices bad = mesh.vertices.topRows(5);
+  EXPECT_THROW(tree.refit(bad), InvalidInput);
+  bad = 2 * mesh.vertices;
+  bad(4, 2) = std::nan("");
+  EXPECT_THROW(tree.refit(bad), InvalidInput);
+  expect_same(tree, AllFaces(mesh.vertices, mesh.faces), q, "unchanged");
+}
+
+}  // namespace
+}  // namespace carom

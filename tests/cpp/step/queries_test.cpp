@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "carom/step/queries.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "carom/numerics/invalid_input.hpp"
+
+#include "narrow/shapes_for_tests.hpp"
+
+using namespace carom;
+using namespace carom::testing;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double exact = 1e-9;  // casts end within cast_gap (1e-10 of the size) of the surface
+
+Pose at(double x, double y, double z) {
+  return {Vector3d(x, y, z), Eigen::Quaterniond::Identity()};
+}
+
+Scene row_of_shapes() {
+  Scene scene;
+  const auto add = [&](Shape shape, double x) {
+    BodyDefinition body;
+    body.shape = std::move(shape);
+    body.pose = at(x, 0, 0);
+    body.is_static = true;
+    scene.add(body);
+  };
+  add(Sphere{0.5}, 0);
+  add(Box{{1, 1, 1}}, 2);
+  add(Capsule{0.25, 0.5}, 4);
+  add(Cylinder{0.5, 1}, 6);
+  add(Cone{0.5, 1}, 8);
+  add(Ellipsoid{{0.5, 0.5, 0.5}}, 10);
+  add(Mesh(l_block()), 13);
+  add(Plane{{0, 0, 1}, -2}, 0);
+  return scene;
+}
+
+}  // namespace
+
+TEST(Rays, MeetEachShapeAtItsHeight) {
+  const Simulation simulation(row_of_shapes());
+  const SceneQueries queries(simulation);
+  const double x[] = {0.3, 2.2, 4.1, 6.3, 8.0, 10.3, 12.5, 15.5};
+  const double top[] = {std::sqrt(0.25 - 0.09),
+                        0.5,
+                        0.25 + std::sqrt(0.0625 - 0.01),
+                        0.5,
+                        0.75,
+                        std::sqrt(0.25 - 0.09),
+                        1,
+                        -2};
+  for (int i = 0; i < 8; ++i) {
+    const BodyHit hit = queries.ray({x[i], 0, 5}, {0, 0, -2}, 100);
+    EXPECT_EQ(hit.row, i);
+    EXPECT_NEAR(hit.cast.distance, 5 - top[i], exact) << i;
+    EXPECT_GT(hit.cast.normal.z(), 0) << i;
+  }
+  EXPECT_EQ(queries.ray({0, 0, 5}, {0, 0, 1}, 100).row, -1);
+  EXPECT_EQ(queries.ray({0.3, 0, 5}, {0, 0, -1}, 4).row, -1);
+  EXPECT_THROW((void)queries.ray({0, 0, 0}, {0, 0, 0}, 1), InvalidInput);
+}
+
+TEST(ShapeCasts, StopAtFirstContact) {
+  const Simulation simulation(row_of_shapes());
+  const SceneQueries queries(simulation);
+  // A ball of 0.2 over the box stands at 0.7; over the sphere's side it follows sqrt(0.7^2 - x^2).
+  const BodyHit box = queries.shape(Sphere{0.2}, at(2, 0, 3), {0, 0, -1}, 100);
+  EXPECT_EQ(box.row, 1);
+  EXPECT_NEAR(box.cast.distance, 2.3, exact);
+  const BodyHit ball = queries.shape(Sphere{0.2}, at(0.3, 0, 3), {0, 0, -1}, 100);
+  EXPECT_EQ(ball.row, 0);
+  EXPECT_NEAR(ball.cast.distance, 3 - std::sqrt(0.49 - 0.09), 1e-8);
+  EXPECT_LE(ball.cast.distance, 3 - std::sqrt(0.49 - 0.09) + 1e-12);  // never beyond
+}
+
+TEST(Overlaps, NameTheBodiesTouched) {
+  const Simulation simulation(row_of_shapes());
+  const SceneQueries queries(simulation);
+  EXPECT_EQ(queries.overlaps(Box{{2.2, 0.1, 0.1}}, at(1, 0, 0)), (std::vector<int>{0, 1}));
+  EXPECT_EQ(queries.overlaps(Sphere{0.1}, at(20, 0, -2.05)), (std::vector<int>{7}));
+  EXPECT_TRUE(queries.overlaps(Sphere{0.1}, at(20, 0, 3)).empty());
+}
+
+TEST(ClosestPoints, GiveDistanceAndBody) {
+  const Simulation simulation(row_of_shapes());
+  const SceneQueries queries(simulation);
+  const BodyPoint side = queries.closest({0, 0.8, 0}, 10);
+  EXPECT_EQ(side.row, 0);
+  EXPECT_NEAR(side.distance, 0.3, exact);
+  EXPECT_NEAR((side.point - Vector3d(0, 0.5, 0)).norm(), 0, exact);
+  const BodyPoint inside = queries.closest({2.4, 0, 0}, 10);
+  EXPECT_EQ(inside.row, 1);
+  EXPECT_NEAR(inside.distance, -0.1, exact);
+}
