@@ -55,6 +55,27 @@ void bind_report(py::module_& m) {
             .format(r.capped, r.clamped, r.not_converged, r.most_substeps);
       });
 
+  py::class_<SweepReport>(m, "SweepReport",
+                          "The certificate: what was followed along its path, and what could not\n"
+                          "be followed to the end of a step and waited there. Nothing has passed "
+                          "through\nanything else.")
+      .def_readonly("swept", &SweepReport::swept, "bodies followed in the last step")
+      .def_readonly("sweeps", &SweepReport::sweeps, "pairs of paths asked about")
+      .def_readonly("queries", &SweepReport::queries, "distances that took")
+      .def_readonly("impacts", &SweepReport::impacts, "hits resolved at their time")
+      .def_readonly("waited", &SweepReport::waited,
+                    "bodies stopped for the rest of a step: too many hits, or given up")
+      .def_readonly("gave_up", &SweepReport::gave_up,
+                    "pairs not certified to the end of a step: query cap met")
+      .def_readonly("time_lost", &SweepReport::time_lost, "s, that those bodies did not move")
+      .def_readonly("smallest_gap", &SweepReport::smallest_gap,
+                    "m, least separation of swept pairs; negative: overlap, inf where none was")
+      .def("__repr__", [](const SweepReport& s) {
+        return py::str(
+                   "SweepReport(swept={}, impacts={}, waited={}, gave_up={}, smallest_gap={:.4g})")
+            .format(s.swept, s.impacts, s.waited, s.gave_up, s.smallest_gap);
+      });
+
   py::class_<StageTime>(m, "StageTime", "Wall time spent in one stage.")
       .def_readonly("stage", &StageTime::stage)
       .def_readonly("seconds", &StageTime::seconds, "s, wall")
@@ -72,9 +93,10 @@ void bind_report(py::module_& m) {
       .def_readonly("stages", &Report::stages, "wall time of each stage")
       .def_readonly("contact", &Report::contact)
       .def_readonly("rotation", &Report::rotation)
+      .def_readonly("sweep", &Report::sweep)
       .def_readonly("frozen", &Report::frozen,
                     "ids of bodies held at their last good pose since their state went non-finite")
-      .def_property_readonly("ok", &Report::ok, "no body frozen and no solve given up")
+      .def_property_readonly("ok", &Report::ok, "no body frozen or made to wait, no solve given up")
       .def("__repr__", [](const Report& r) {
         return py::str("<Report {}: {:.6g} s simulated in {} steps, {:.4g} s wall>")
             .format(r.ok() ? "ok" : "NOT ok", r.simulated, r.steps, r.wall_seconds);

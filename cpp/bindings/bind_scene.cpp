@@ -108,6 +108,12 @@ void bind_body(py::module_& m) {
       .def_readonly("restitution", &Body::restitution)
       .def_readonly("rolling_resistance", &Body::rolling_resistance, "m")
       .def_readonly("spinning_resistance", &Body::spinning_resistance, "m")
+      .def_property_readonly(
+          "ccd",
+          [](const Body& b) {
+            return b.ccd == Ccd::automatic ? "auto" : b.ccd == Ccd::always ? "always" : "never";
+          },
+          "'auto', 'always' or 'never'")
       .def("__repr__", [](const Body& b) {
         return py::str("<Body {} {!r} {!r}{}>")
             .format(b.id, b.name, b.shape, b.is_static ? " static" : "");

@@ -7,6 +7,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "carom/numerics/invalid_input.hpp"
 #include "carom/scene/scene.hpp"
 
 #include "arguments.hpp"
@@ -24,8 +25,17 @@ inline constexpr const char* add_doc =
     "friction: >= 0, a pair uses sqrt(mu1 mu2); restitution: 0 to 1, a pair uses the larger;\n"
     "rolling_resistance, spinning_resistance: m, >= 0: torque bounds over the normal force, a "
     "pair\n"
-    "uses the larger.\n\n"
+    "uses the larger;\n"
+    "ccd: 'auto' follows the body along its path in steps that move it farther than its own\n"
+    "thickness allows, 'always' in every step, 'never': it may then pass through things.\n\n"
     "Raises InvalidInput (a ValueError) naming the field; nothing has changed then.";
+
+inline Ccd ccd(const std::string& name, const std::string& field) {
+  if (name == "auto") return Ccd::automatic;
+  if (name == "always") return Ccd::always;
+  if (name == "never") return Ccd::never;
+  throw InvalidInput(field, "'" + name + "'", "must be 'auto', 'always' or 'never'");
+}
 
 /// Binds `add(self, BodyDefinition)` under the name "add" with the keyword arguments of a body.
 template <class Class, class Add>
@@ -41,7 +51,7 @@ void define_add(Class& cls, Add add) {
             std::optional<MassProperties> mass_properties, const ArrayLike& position,
             const ArrayLike& orientation, const ArrayLike& velocity,
             const ArrayLike& angular_velocity, double friction, double restitution,
-            double rolling_resistance, double spinning_resistance) {
+            double rolling_resistance, double spinning_resistance, const std::string& ccd) {
         const std::string at = name.empty() ? "" : name + ".";
         BodyDefinition body;
         body.name = name;
@@ -58,6 +68,7 @@ void define_add(Class& cls, Add add) {
         body.restitution = restitution;
         body.rolling_resistance = rolling_resistance;
         body.spinning_resistance = spinning_resistance;
+        body.ccd = python::ccd(ccd, at + "ccd");
         return add(self, std::move(body));
       },
       "shape"_a, py::kw_only(), "name"_a = "", "static"_a = false, "mass"_a = py::none(),
@@ -66,7 +77,7 @@ void define_add(Class& cls, Add add) {
       py::arg_v("orientation", ArrayLike{py::make_tuple(0.0, 0.0, 0.0, 1.0)}, "(0, 0, 0, 1)"),
       py::arg_v("velocity", zero, "(0, 0, 0)"), py::arg_v("angular_velocity", zero, "(0, 0, 0)"),
       "friction"_a = BodyDefinition{}.friction, "restitution"_a = BodyDefinition{}.restitution,
-      "rolling_resistance"_a = 0.0, "spinning_resistance"_a = 0.0, add_doc);
+      "rolling_resistance"_a = 0.0, "spinning_resistance"_a = 0.0, "ccd"_a = "auto", add_doc);
 }
 
 }  // namespace carom::python

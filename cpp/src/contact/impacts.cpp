@@ -148,6 +148,15 @@ double Impacts::resolve(BodyStates& states, BodyFrames& frames, const Islands& i
   return taken;
 }
 
+double Impacts::hit(BodyStates& states, BodyFrames& frames, const Patch& patch,
+                    std::span<Contact> contacts, double speed) {
+  impulses_.clear();
+  hit_.resize(states.size());
+  const double taken = strike(states, frames, patch, contacts, speed);
+  add_to(contacts);
+  return taken;
+}
+
 void Impacts::add_to(std::span<Contact> contacts) const {
   for (const Impulse& i : impulses_) {
     contacts[i.contact].impulse += i.impulse;

@@ -20,10 +20,14 @@ class Impacts {
   /// Changes velocities in states and frames. Returns the energy taken, J.
   double resolve(BodyStates& states, BodyFrames& frames, const Islands& islands,
                  std::span<Contact> contacts, double dt);
+  /// One hit of one patch at `speed` (m/s, its fastest approach), bodies as they stand: changes
+  /// velocities in states and frames, adds impulses to the contacts. Returns the energy taken, J.
+  double hit(BodyStates& states, BodyFrames& frames, const Patch& patch,
+             std::span<Contact> contacts, double speed);
   /// Adds the impulses of the hits to what the contacts carry by now.
   void add_to(std::span<Contact> contacts) const;
   /// 1 for rows that were hit in the last call; empty when none was.
-  [[nodiscard]] std::span<const std::uint8_t> hit() const { return hit_; }
+  [[nodiscard]] std::span<const std::uint8_t> rows_hit() const { return hit_; }
 
  private:
   double resolve_island(BodyStates& states, BodyFrames& frames, const Islands& islands,

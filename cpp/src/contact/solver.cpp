@@ -145,7 +145,7 @@ SolveOutcome ContactSolver::solve(BodyStates& states, const Array3& velocity_bef
   }
   w.impacts.add_to(contacts);
   for (const int row : w.islands.bodies)
-    if (!w.impacts.hit().empty() && w.impacts.hit()[row] && !w.motion.decided[row]) {
+    if (!w.impacts.rows_hit().empty() && w.impacts.rows_hit()[row] && !w.motion.decided[row]) {
       w.motion.decided[row] = 1;
       w.motion.displacement.set(row,
                                 0.5 * dt * (w.frames.velocity_before[row] + states.velocity[row]));

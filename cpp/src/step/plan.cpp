@@ -32,8 +32,9 @@ int tops(const Scene& scene) {
 }  // namespace
 
 std::string_view name_of(StageKind kind) {
-  constexpr std::string_view names[] = {"gravity", "applied_wrench", "drag",  "torsion",
-                                        "pairs",   "contacts",       "solve", "integrate"};
+  constexpr std::string_view names[] = {"gravity", "applied_wrench", "drag",
+                                        "torsion", "pairs",          "contacts",
+                                        "solve",   "integrate",      "sweep"};
   return names[static_cast<int>(kind)];
 }
 
@@ -102,6 +103,13 @@ Plan compile(const Scene& scene, bool wrench_requested) {
                             " unequal principal moments"
                       : "off: all principal moments are equal"),
       "nothing moves", movers);
+
+  const auto swept = std::ranges::count_if(
+      scene.bodies, [](const Scene::Body& b) { return !b.is_static && b.ccd != Ccd::never; });
+  add(StageKind::sweep, can_meet && swept > 0,
+      count(static_cast<int>(swept), "body is", "bodies are") +
+          " followed along the path in steps faster than its thickness allows",
+      can_meet ? "every body has ccd: never" : alone, static_cast<int>(swept));
   return plan;
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "carom/geometry/thickness.hpp"
 #include "carom/numerics/invalid_input.hpp"
 #include "carom/numerics/tolerance.hpp"
 
@@ -20,8 +21,8 @@ double seconds_since(Clock::time_point start) {
 }
 
 using Run = void (*)(World&);
-constexpr Run runners[] = {run_gravity, run_applied_wrench, run_drag,  run_torsion,
-                           run_pairs,   run_contacts,       run_solve, run_integrate};
+constexpr Run runners[] = {run_gravity,  run_applied_wrench, run_drag,      run_torsion, run_pairs,
+                           run_contacts, run_solve,          run_integrate, run_sweep};
 
 /// Impulses act at once, before the forces: a body hit now moves at its new speed through the step.
 void take_impulses(World& world) {
@@ -35,11 +36,24 @@ void take_impulses(World& world) {
   }
 }
 
+/// Sizes that tell which motion is too fast for a body.
+void measure_bodies(World& world) {
+  const std::size_t n = world.scene.bodies.size();
+  SweepWork& w = world.sweep;
+  w.thickness.resize(n), w.swing.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Scene::Body& body = world.scene.bodies[i];
+    w.thickness[i] = inner_radius(body.shape);
+    w.swing[i] = turning_radius(body.shape) + body.properties.com.norm();
+  }
+}
+
 void refresh_plan(World& world) {
   if (!world.plan_is_stale) return;
   world.plan = compile(world.scene, !world.requests.empty());
   if (!world.asleep.empty())
     std::erase_if(world.plan.movers, [&](int i) { return !world.states.moves[i]; });
+  if (world.plan.runs(StageKind::sweep)) measure_bodies(world);
   world.plan_is_stale = false;
 }
 
@@ -56,6 +70,10 @@ void run_step(World& world, double dt) {
   world.velocity_before = world.states.velocity;
   world.angular_momentum_before = world.states.angular_momentum;
   world.has_mean_momentum.clear();
+  if (world.plan.runs(StageKind::sweep)) {
+    world.sweep.position_before = world.states.position;
+    world.sweep.orientation_before = world.states.orientation;
+  }
   for (const Stage& stage : world.plan.stages) {
     if (!stage.on) continue;
     const Clock::time_point start = Clock::now();
@@ -80,6 +98,10 @@ Report difference(const Report& now, const Report& then) {
   r.wall_seconds -= then.wall_seconds;
   r.contact.iterations -= then.contact.iterations;
   r.contact.gave_up -= then.contact.gave_up;
+  for (auto field : {&SweepReport::sweeps, &SweepReport::queries, &SweepReport::impacts,
+                     &SweepReport::waited, &SweepReport::gave_up})
+    r.sweep.*field -= then.sweep.*field;
+  r.sweep.time_lost -= then.sweep.time_lost;
   r.rotation.capped -= then.rotation.capped;
   r.rotation.clamped -= then.rotation.clamped;
   r.rotation.not_converged -= then.rotation.not_converged;
@@ -124,6 +146,7 @@ Report Simulation::advance(double seconds) {
   require_non_negative(seconds, "seconds", "s", "time only runs forward");
   const Report before = world_->report;
   world_->report.contact.deepest_overlap = world_->report.contact.residual = 0;
+  world_->report.sweep.smallest_gap = SweepReport{}.smallest_gap;
   const double end = before.time + seconds;
   // Equal steps that land on the end; a ratio that is whole but for rounding is not split once
   // more.
@@ -138,6 +161,8 @@ Report Simulation::advance(double seconds) {
   ContactReport& total = world_->report.contact;
   total.deepest_overlap = std::max(total.deepest_overlap, before.contact.deepest_overlap);
   total.residual = std::max(total.residual, before.contact.residual);
+  double& gap = world_->report.sweep.smallest_gap;
+  gap = std::min(gap, before.sweep.smallest_gap);
   return report;
 }
 

@@ -12,6 +12,7 @@
 #include "carom/step/simulation.hpp"
 
 #include "contact/manifold_cache.hpp"
+#include "step/sweep.hpp"
 
 namespace carom {
 
@@ -71,7 +72,7 @@ struct World {
   BoxTree box_tree;                 ///< keeps the pairs of the step
   std::vector<Manifold> manifolds;  ///< of the pair at hand
   std::vector<Contact> contacts, contacts_before;
-  std::vector<std::size_t> warm;
+  SweepWork sweep;
 };
 
 /// Rotation vector of the spring's body from its rest, rad, world axes.
@@ -86,6 +87,7 @@ void run_pairs(World& world);
 void run_contacts(World& world);
 void run_solve(World& world);
 void run_integrate(World& world);
+void run_sweep(World& world);
 
 /// Lets islands sleep that have been still for long enough. After the step.
 void fall_asleep(World& world);

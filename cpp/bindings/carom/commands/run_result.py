@@ -28,8 +28,16 @@ def as_text(scene: str, simulation: Simulation, start: Energy) -> None:
     print(
         f"contacts: {contact.points} points at the end, deepest overlap "
         f"{number(contact.deepest_overlap)} m, residual {number(contact.residual)} m/s, "
-        f"{contact.gave_up} solves gave up\n"
+        f"{contact.gave_up} solves gave up"
     )
+    sweep = report.sweep
+    if sweep.sweeps:
+        print(
+            f"sweeps: {sweep.sweeps}, {sweep.impacts} hits at their time, smallest gap "
+            f"{number(sweep.smallest_gap)} m, {sweep.waited} bodies waited "
+            f"({number(sweep.time_lost)} s lost)"
+        )
+    print()
     total = sum(stage.seconds for stage in simulation.plan()) or 1.0
     rows = [
         [s.stage, number(s.seconds), f"{100 * s.seconds / total:.0f} %", str(s.bodies), s.reason]
@@ -75,6 +83,15 @@ def as_json(scene: str, simulation: Simulation, start: Energy) -> None:
                 "residual_m_per_s": contact.residual,
                 "iterations": contact.iterations,
                 "gave_up": contact.gave_up,
+            },
+            "sweep": {
+                "sweeps": report.sweep.sweeps,
+                "queries": report.sweep.queries,
+                "impacts": report.sweep.impacts,
+                "waited": report.sweep.waited,
+                "gave_up": report.sweep.gave_up,
+                "time_lost_s": report.sweep.time_lost,
+                "smallest_gap_m": report.sweep.smallest_gap if report.sweep.sweeps else None,
             },
             "frozen": [b["name"] for b in bodies if b["id"] in report.frozen],
             "stages": [

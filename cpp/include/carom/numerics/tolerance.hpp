@@ -275,6 +275,45 @@ inline constexpr double sweep_gap = 1e-6;
 /// within 8 % of its radius; the bound r angle^2 / 8 itself holds at any angle.
 inline constexpr double sweep_turn = 0.7853981633974483;
 
+/// Moving bodies meet when they are this near, m. Choice: a micrometre is far above the rounding of
+/// coordinates up to 1e6 m (1e-10) and invisible to a reader of poses.
+inline constexpr double sweep_clear = 1e-6;
+
+/// A pair that is nearer already (it rests, or was hit a moment ago) may come nearer by this before
+/// it counts as meeting again, m. A point at radius r that turns away from a wall needs it to get
+/// off: the stride sqrt(8 slop / (w^2 r)) of a rod of 1 m at 100 rad/s is then 0.1 ms. Ten hits of
+/// one pair in a step keep its overlap below 0.1 mm.
+inline constexpr double sweep_slop = 1e-5;
+
+/// Contact points farther apart than this are left to the sweep where a body is fast, m: more than
+/// a hit leaves (sweep_clear) and than a pair that was hit may use up (sweep_slop).
+inline constexpr double sweep_touch = 2e-5;
+
+/// Share of its inner radius that a body may travel in a step without being swept. Choice: what
+/// lies ahead is then met before the middle of the body is past it, and pushed back the right way.
+inline constexpr double sweep_share = 0.5;
+
+/// Distances one pair of convex parts may ask for before it counts as given up. A rod that turns
+/// past a wall asks 20, one that spins towards it at 100 rad/s some 300.
+inline constexpr int sweep_queries = 1024;
+
+/// Hits of one body in a step. A ball that rattles between walls has its e^n below 1 % after 32 at
+/// e = 0.87; then the body waits for the next step instead of passing anything.
+inline constexpr int sweep_hits = 32;
+
+/// m/s: points that close more slowly than this are not hit. Over 0.1 s they move a thousandth of
+/// sweep_slop.
+inline constexpr double sweep_still = 1e-7;
+
+/// Share of its gap that a body may move towards a distance grid at once: between samples the
+/// interpolated distance grows at up to sqrt(3) times the way.
+inline constexpr double sdf_stride = 0.5;
+
+/// rad: the longest arc of a path between two orientations of a body that is not a ball. Choice:
+/// far from pi, where the shortest arc would go the wrong way round, and the way a top wobbles
+/// between them is covered by its own sub-steps of the same length.
+inline constexpr double sweep_arc = 0.5;
+
 /// The plain float method calls points closer than this a contact, m. Choice: the usual 1e-6 (as in
 /// Bridson 2002 and in Tight-Inclusion's default), absolute as theirs is: that is its weakness.
 inline constexpr double float_contact = 1e-6;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,13 @@
 #include "carom/scene/effects.hpp"
 
 namespace carom {
+
+/// When a body is followed along its path, so that it meets what lies between two steps.
+enum class Ccd : std::uint8_t {
+  automatic,  ///< in steps that move it farther than its own thickness allows
+  always,     ///< in every step that moves it
+  never       ///< it may pass through things when it is fast
+};
 
 /// One body as the scene describes it. Mass: give at most one of mass, density and mass_properties.
 struct BodyDefinition {
@@ -29,6 +37,7 @@ struct BodyDefinition {
   /// normal force; a pair uses the larger. 0: no such rows exist.
   double rolling_resistance = 0.0;
   double spinning_resistance = 0.0;
+  Ccd ccd = Ccd::automatic;
 };
 
 /// The body's mass properties by whichever way it gives them. Zero mass for a static body.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,21 @@ struct RotationReport {
   int most_substeps = 0;           ///< of any body in any step
 };
 
+/// The certificate of a step, or of a call of advance: what was followed along its path, and what
+/// could not be followed to the end. Nothing has passed through anything else: a body that runs out
+/// of hits waits where it is.
+struct SweepReport {
+  int swept = 0;             ///< bodies followed in the last step
+  std::int64_t sweeps = 0;   ///< pairs of paths asked about
+  std::int64_t queries = 0;  ///< distances that took
+  std::int64_t impacts = 0;  ///< hits resolved at their time
+  std::int64_t waited = 0;   ///< bodies stopped for the rest of a step: too many hits, or gave_up
+  std::int64_t gave_up = 0;  ///< pairs not certified to the end of the step: query cap met
+  double time_lost = 0;      ///< s, that those bodies did not move
+  /// m, least separation of swept pairs; negative: overlap, infinite where none was swept
+  double smallest_gap = std::numeric_limits<double>::infinity();
+};
+
 struct StageTime {
   std::string stage;
   double seconds = 0;  ///< wall time in this stage
@@ -55,10 +71,12 @@ struct Report {
   std::vector<StageTime> stages;
   ContactReport contact;
   RotationReport rotation;
+  SweepReport sweep;
   std::vector<BodyId> frozen;  ///< held at their last good pose since their state went non-finite
 
   [[nodiscard]] bool ok() const {
-    return frozen.empty() && contact.gave_up == 0 && rotation.not_converged == 0;
+    return frozen.empty() && contact.gave_up == 0 && rotation.not_converged == 0 &&
+           sweep.waited == 0;
   }
 };
 

@@ -8,7 +8,17 @@
 
 namespace carom {
 
-enum class StageKind { gravity, applied_wrench, drag, torsion, pairs, contacts, solve, integrate };
+enum class StageKind {
+  gravity,
+  applied_wrench,
+  drag,
+  torsion,
+  pairs,
+  contacts,
+  solve,
+  integrate,
+  sweep
+};
 
 /// Lower-case name as printed: "gravity", "applied_wrench", ...
 [[nodiscard]] std::string_view name_of(StageKind kind);

@@ -36,6 +36,32 @@ void warm_start(World& world) {
   }
 }
 
+/// Whether the sweep finds these contacts at their time: the pair is apart, and one of them is fast
+/// or bounces for longer than a step.
+bool left_to_sweep(World& world, const BodyPair& pair, double restitution) {
+  SweepWork& w = world.sweep;
+  if (w.fast[pair.a] || w.fast[pair.b]) return true;
+  if (!(restitution > 0) || !world.plan.runs(StageKind::sweep)) return false;
+  const BodyStates& s = world.states;
+  bool bounces = false;
+  for (const Manifold& m : world.manifolds)
+    for (int k = 0; k < m.count; ++k) {
+      const ContactPoint& p = m.points[k];
+      if (p.separation <= tolerance::sweep_touch) return false;
+      const Eigen::Vector3d u =
+          s.velocity_at(pair.b, p.position) - s.velocity_at(pair.a, p.position);
+      const Eigen::Vector3d gained = s.velocity[pair.b] - world.velocity_before[pair.b] -
+                                     (s.velocity[pair.a] - world.velocity_before[pair.a]);
+      const double now = m.normal.dot(u), before = now - m.normal.dot(gained);
+      const bool meets = p.separation + world.dt * std::min(now, before) < 0;
+      bounces = bounces || (meets && -2 * restitution * before > before - now);
+    }
+  if (!bounces) return false;
+  for (const int row : {pair.a, pair.b})
+    w.fast[row] = s.moves[row] && world.scene.bodies[row].ccd != Ccd::never;
+  return w.fast[pair.a] || w.fast[pair.b];
+}
+
 }  // namespace
 
 void run_contacts(World& world) {
@@ -51,9 +77,12 @@ void run_contacts(World& world) {
     const double reach = std::min(bounding_radius(a.shape), bounding_radius(b.shape));
     world.manifold_cache.collide(pair.a, pair.b, a.shape, world.states.pose(pair.a), b.shape,
                                  world.states.pose(pair.b), margin, reach, world.manifolds);
+    const double restitution = std::max(a.restitution, b.restitution);
+    const bool swept = left_to_sweep(world, pair, restitution);
     for (const Manifold& m : world.manifolds)
       for (int k = 0; k < m.count; ++k) {
         const ContactPoint& p = m.points[k];
+        if (swept && p.separation > tolerance::sweep_touch) continue;
         world.contacts.push_back(
             {.a = pair.a,
              .b = pair.b,
@@ -61,7 +90,7 @@ void run_contacts(World& world) {
              .position = p.position,
              .separation = p.separation,
              .friction = std::sqrt(a.friction * b.friction),
-             .restitution = std::max(a.restitution, b.restitution),
+             .restitution = restitution,
              .rolling_resistance = std::max(a.rolling_resistance, b.rolling_resistance),
              .spinning_resistance = std::max(a.spinning_resistance, b.spinning_resistance),
              .feature = p.feature});

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "carom/narrow/first_contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "carom/geometry/mesh_surface.hpp"
+#include "carom/narrow/queries.hpp"
+#include "carom/numerics/tolerance.hpp"
+
+#include "narrow/advance.hpp"
+
+namespace carom {
+namespace {
+
+using Eigen::Vector3d;
+using narrow::MovingPart;
+using Status = FirstContact::Status;
+
+constexpr int many_faces = 32;  // more of them in one stretch of the way: halve the stretch
+constexpr int most_halvings = 12;
+
+/// A shape without parts, where it sits in its body.
+struct Leaf {
+  const Shape* shape = nullptr;
+  Frame in_body;
+  MovingPart part;  // of a convex shape or a half-space
+  const MeshSurface* surface = nullptr;
+  bool is_grid = false;
+  double radius = 0;  // m, about the centre of mass
+};
+
+const MeshSurface* surface_of(const Shape& shape) {
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->surface.get();
+  if (const auto* terrain = std::get_if<HeightField>(&shape)) return terrain->surface.get();
+  return nullptr;
+}
+
+void take_apart(const Shape& shape, const Frame& in_body, const BodyPath& path,
+                std::vector<Leaf>& out) {
+  if (const auto* whole = std::get_if<Compound>(&shape)) {
+    for (const CompoundPart& part : *whole->parts)
+      take_apart(part.shape, in_body * Frame(part.pose), path, out);
+    return;
+  }
+  if (const auto* balls = std::get_if<ParticleSet>(&shape)) {
+    for (Eigen::Index i = 0; i < balls->positions.rows(); ++i) {
+      Leaf leaf;
+      leaf.part = MovingPart::of(Convex::point(balls->positions.row(i).transpose(), balls->radius),
+                                 in_body, path);
+      leaf.radius = leaf.part.arm + balls->radius;
+      out.push_back(leaf);
+    }
+    return;
+  }
+  Leaf leaf;
+  leaf.shape = &shape;
+  leaf.in_body = in_body;
+  leaf.radius = (in_body.translation - path.com_b).norm() + bounding_radius(shape);
+  leaf.is_grid = std::holds_alternative<Sdf>(shape);
+  if (const auto* plane = std::get_if<Plane>(&shape)) {
+    leaf.part.half_space = true;
+    leaf.part.path = &path;
+    leaf.part.normal_b = in_body.rotation * plane->normal.normalized();
+    leaf.part.offset = plane->offset + leaf.part.normal_b.dot(in_body.translation);
+  } else if (const auto convex = convex_of(shape)) {
+    leaf.part = MovingPart::of(*convex, in_body, path);
+  } else {
+    leaf.surface = surface_of(shape);
+  }
+  out.push_back(leaf);
+}
+
+/// One pair of bodies being asked about.
+struct Search {
+  const BodyPath &path_a, &path_b;
+  double from, end;
+  double target = 0;      // m, a gap this small is a contact
+  bool only_now = false;  // look at `from` alone: how near they are already
+  FirstContact best{};
+
+  /// The world box that a leaf sweeps from t0 to t1.
+  static Aabb swept(const Leaf& leaf, const BodyPath& path, double t0, double t1) {
+    return path.centre_bounds(t0, t1).inflated(leaf.radius + tolerance::sweep_clear);
+  }
+
+  /// Bound on the way of any point of a body that lies within `radius` of its centre.
+  static double way(const BodyPath& path, double radius, double t0, double t1) {
+    double rate = 0;
+    for (const BodyPath::Arc& arc : path.arcs) rate = std::max(rate, arc.rate.norm());
+    const double speed = std::max(path.velocity_at(t0).norm(), path.velocity_at(t1).norm());
+    return (speed + rate * radius) * (t1 - t0);
+  }
+
+  void ask(const MovingPart& a, const MovingPart& b, double t0, double t1) {
+    if (!only_now) return narrow::advance(a, b, t0, t1, target, best);
+    const FirstContact here = narrow::gap_at(a, b, from, 2 * tolerance::sweep_clear);
+    best.gap = std::min(best.gap, here.gap);
+  }
+
+  /// A convex part against the faces of a surface that it may meet between t0 and t1.
+  void faces(const Leaf& s, const BodyPath& path_s, const MovingPart& part, double radius,
+             bool surface_is_a, double t0, double t1, int halvings) {
+    thread_local std::vector<int> near;
+    Leaf ball;
+    ball.radius = radius;
+    const Aabb world = swept(ball, *part.path, t0, t1);
+    const Frame frame = Frame(path_s.pose_at(t0)) * s.in_body;
+    const double slide = way(path_s, s.radius, t0, t1);
+    const Aabb region = local(frame, world).inflated(slide);
+    near.clear();
+    const std::size_t begin = near.size();
+    s.surface->tree.query([&](const Aabb& box) { return box.overlaps(region); },
+                          [&](int f) { near.push_back(f); });
+    const double size = 2 * radius + slide;
+    if (near.size() - begin > many_faces && halvings < most_halvings &&
+        world.extents().maxCoeff() > 2 * size) {
+      const double middle = 0.5 * (t0 + t1);
+      faces(s, path_s, part, radius, surface_is_a, t0, middle, halvings + 1);
+      if (best.status == Status::clear)
+        faces(s, path_s, part, radius, surface_is_a, middle, t1, halvings + 1);
+      return;
+    }
+    for (const int f : near) {
+      const std::array<Vector3d, 3> corners{s.surface->corner(f, 0), s.surface->corner(f, 1),
+                                            s.surface->corner(f, 2)};
+      const MovingPart face = MovingPart::of(Convex::hull(corners), s.in_body, path_s);
+      surface_is_a ? ask(face, part, t0, t1) : ask(part, face, t0, t1);
+    }
+  }
+
+  void surfaces(const Leaf& a, const Leaf& b) {
+    thread_local std::vector<int> mine;
+    mine.clear();
+    const Frame frame = Frame(path_a.pose_at(from)) * a.in_body;
+    const double slide = way(path_a, a.radius, from, end);
+    const Aabb region = local(frame, swept(b, path_b, from, end)).inflated(slide);
+    a.surface->tree.query([&](const Aabb& box) { return box.overlaps(region); },
+                          [&](int f) { mine.push_back(f); });
+    for (const int f : mine) {
+      const std::array<Vector3d, 3> corners{a.surface->corner(f, 0), a.surface->corner(f, 1),
+                                            a.surface->corner(f, 2)};
+      const MovingPart face = MovingPart::of(Convex::hull(corners), a.in_body, path_a);
+      faces(b, path_b, face, face.arm, false, from, last(), 0);
+    }
+  }
+
+  /// A distance grid and anything: nothing may move farther than the gap.
+  void grid(const Leaf& a, const Leaf& b) {
+    // Particles have no shape of their own in a leaf; a ball stands for them.
+    const Shape ball_a = Sphere{a.part.convex.radius}, ball_b = Sphere{b.part.convex.radius};
+    const auto place = [](const Leaf& leaf, const BodyPath& path, double t) {
+      const Frame inner =
+          leaf.shape ? leaf.in_body
+                     : Frame(Eigen::Matrix3d::Identity(), leaf.in_body * leaf.part.convex.ends[0]);
+      const Frame f = Frame(path.pose_at(t)) * inner;
+      return Pose{f.translation, Eigen::Quaterniond(f.rotation)};
+    };
+    double t = from;
+    for (int i = 0; t < end || i == 0; ++i) {
+      const double most = way(path_a, a.radius, t, end) + way(path_b, b.radius, t, end);
+      const double reach = most + 2 * tolerance::sweep_clear;
+      const ClosestPoints near =
+          closest_points(a.shape ? *a.shape : ball_a, place(a, path_a, t),
+                         b.shape ? *b.shape : ball_b, place(b, path_b, t), reach);
+      ++best.queries;
+      best.gap = std::min(best.gap, near.distance);
+      if (only_now || !(near.distance <= reach)) return;
+      const double room = near.distance - target;
+      const bool touches = room <= 0.5 * tolerance::sweep_clear;
+      if (touches || i == 4 * tolerance::sweep_queries) {
+        if (best.status != Status::clear && best.time <= t) return;
+        best.status = touches ? Status::contact : Status::gave_up;
+        best.time = t;
+        best.normal = near.normal;
+        best.point = 0.5 * (near.point_a + near.point_b);
+        return;
+      }
+      if (room >= most) return;
+      t += tolerance::sdf_stride * (end - t) * room / most;
+    }
+  }
+
+  void leaves(const Leaf& a, const Leaf& b) {
+    if (!a.part.half_space && !b.part.half_space &&
+        !swept(a, path_a, from, end).overlaps(swept(b, path_b, from, end)))
+      return;
+    if (a.is_grid || b.is_grid) return grid(a, b);
+    if (a.surface && b.surface) return surfaces(a, b);
+    if (b.part.half_space) return half_space(b, a, true);
+    if (a.part.half_space) return half_space(a, b, false);
+    if (a.surface) return faces(a, path_a, b.part, b.radius, true, from, last(), 0);
+    if (b.surface) return faces(b, path_b, a.part, a.radius, false, from, last(), 0);
+    ask(a.part, b.part, from, last());
+  }
+
+  void half_space(const Leaf& plane, const Leaf& other, bool turned) {
+    thread_local std::vector<Vector3d> corners;
+    MovingPart part = other.part;
+    if (other.surface) {  // a half-space meets the hull of a surface first
+      corners.clear();
+      for (Eigen::Index v = 0; v < other.surface->mesh.vertices.rows(); ++v)
+        corners.push_back(other.surface->vertex(static_cast<int>(v)));
+      part = MovingPart::of(Convex::hull(corners), other.in_body, turned ? path_a : path_b);
+    }
+    const double before = best.time;
+    const Status status = best.status;
+    ask(plane.part, part, from, last());
+    if (turned && (best.time != before || best.status != status)) best.normal = -best.normal;
+  }
+
+  [[nodiscard]] double last() const {
+    if (only_now) return from;
+    return best.status == Status::clear ? end : best.time;
+  }
+
+  /// Box around a world box, in a frame.
+  static Aabb local(const Frame& frame, const Aabb& world) {
+    const Vector3d half = frame.rotation.transpose().cwiseAbs() * (0.5 * world.extents());
+    const Vector3d centre = frame.to_local(world.centre());
+    return {centre - half, centre + half};
+  }
+
+  void run(const std::vector<Leaf>& of_a, const std::vector<Leaf>& of_b) {
+    best.gap = std::numeric_limits<double>::infinity();
+    for (const Leaf& a : of_a)
+      for (const Leaf& b : of_b) leaves(a, b);
+  }
+};
+
+}  // namespace
+
+FirstContact first_contact(const Shape& a, const BodyPath& path_a, const Shape& b,
+                           const BodyPath& path_b, double from, double end) {
+  thread_local std::vector<Leaf> of_a, of_b;
+  of_a.clear(), of_b.clear();
+  take_apart(a, {}, path_a, of_a);
+  take_apart(b, {}, path_b, of_b);
+  Search now{path_a, path_b, from, from};
+  now.only_now = true;
+  now.run(of_a, of_b);
+  Search search{path_a, path_b, from, end};
+  search.target = now.best.gap > 1.5 * tolerance::sweep_clear
+                      ? tolerance::sweep_clear
+                      : now.best.gap - tolerance::sweep_slop;
+  search.best.time = end;
+  search.run(of_a, of_b);
+  search.best.gap = std::min(search.best.gap, now.best.gap);
+  return search.best;
+}
+
+}  // namespace carom

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Continuous collision: bodies that went farther than their own thickness allows are followed along
+// their paths, hit by hit in the order of time, until nothing meets before the step ends.
+#include "step/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "carom/numerics/tolerance.hpp"
+
+#include "step/world.hpp"
+
+namespace carom {
+namespace {
+
+/// Marks what the step moved farther than allowed. The bound on turning is |L| over the least
+/// moment: no frame is needed for it.
+bool mark_fast(World& world) {
+  SweepWork& w = world.sweep;
+  const BodyStates& s = world.states;
+  bool any = false;
+  for (const int i : world.plan.movers) {
+    const Ccd ccd = world.scene.bodies[i].ccd;
+    const Eigen::Vector3d way = s.position[i] - w.position_before[i];
+    const double turn = world.dt * s.angular_momentum[i].norm() * s.inverse_moments[i].maxCoeff();
+    const double far = way.norm() + turn * w.swing[i];
+    const bool calls = far > tolerance::sweep_share * w.thickness[i] ||
+                       (ccd == Ccd::always && far > 0) || w.fast[i];
+    w.fast[i] = calls && ccd != Ccd::never;
+    any = any || w.fast[i];
+  }
+  return any;
+}
+
+void ask(World& world, int a, int b, double t) {
+  SweepWork& w = world.sweep;
+  const Scene::Body &body_a = world.scene.bodies[a], &body_b = world.scene.bodies[b];
+  SweepReport& report = world.report.sweep;
+  const FirstContact found =
+      first_contact(body_a.shape, w.paths[a], body_b.shape, w.paths[b], t, world.dt);
+  ++report.sweeps;
+  report.queries += found.queries;
+  report.smallest_gap = std::min(report.smallest_gap, found.gap);
+  if (found.status == FirstContact::Status::clear) return;
+  w.events.push_back({found, a, b, w.version[a], w.version[b]});
+  std::push_heap(w.events.begin(), w.events.end());
+}
+
+/// Asks again about everything a body with a new path may meet.
+void ask_about(World& world, int row, int done, double t) {
+  SweepWork& w = world.sweep;
+  w.boxes[row] = path_bounds(world, row);
+  for (int j = 0; j < static_cast<int>(w.boxes.size()); ++j) {
+    if (j == row || j == done || !w.boxes[j].overlaps(w.boxes[row])) continue;
+    if (!world.states.moves[row] && !world.states.moves[j]) continue;
+    ask(world, std::min(row, j), std::max(row, j), t);
+  }
+}
+
+void handle(World& world, const SweepEvent& event) {
+  SweepWork& w = world.sweep;
+  const double t = event.contact.time;
+  const bool certain = event.contact.status == FirstContact::Status::contact;
+  const auto tired = [&](int row) {
+    return world.states.moves[row] && !w.waits[row] && ++w.hits[row] > tolerance::sweep_hits;
+  };
+  const bool stop_a = tired(event.a), stop_b = tired(event.b);
+  if (certain) {
+    ++world.report.sweep.impacts;
+    strike(world, event);
+  } else {
+    ++world.report.sweep.gave_up;
+  }
+  if (stop_a || (!certain && world.states.moves[event.a])) wait_at(world, event.a, t);
+  if (stop_b || (!certain && world.states.moves[event.b])) wait_at(world, event.b, t);
+  for (const int row : {event.a, event.b}) {
+    if (!world.states.moves[row]) continue;
+    ++w.version[row];
+    w.fast[row] = 1;
+  }
+  ask_about(world, event.a, -1, t);
+  ask_about(world, event.b, event.a, t);
+}
+
+}  // namespace
+
+void run_sweep(World& world) {
+  SweepWork& w = world.sweep;
+  const int n = world.states.size();
+  world.report.sweep.swept = 0;
+  if (!mark_fast(world)) return;
+  lay_paths(world);
+  w.waits.assign(n, 0), w.version.assign(n, 0), w.hits.assign(n, 0);
+  w.boxes.resize(n);
+  for (int i = 0; i < n; ++i)
+    w.boxes[i] = world.states.moves[i] ? path_bounds(world, i) : world.boxes[i];
+  w.events.clear();
+  for (const BodyPair& pair : w.tree.update(w.boxes, w.fast)) ask(world, pair.a, pair.b, 0);
+  while (!w.events.empty()) {
+    std::pop_heap(w.events.begin(), w.events.end());
+    const SweepEvent event = w.events.back();
+    w.events.pop_back();
+    if (w.version[event.a] == event.version_a && w.version[event.b] == event.version_b)
+      handle(world, event);
+  }
+  world.report.sweep.swept = static_cast<int>(std::ranges::count(w.fast, 1));
+}
+
+}  // namespace carom

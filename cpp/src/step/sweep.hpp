@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the sweep keeps: the paths of the step under way and the hits still to come on them.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "carom/broad/box_tree.hpp"
+#include "carom/narrow/body_path.hpp"
+#include "carom/narrow/contacts.hpp"
+#include "carom/narrow/first_contact.hpp"
+#include "carom/state/report.hpp"
+
+#include "contact/impacts.hpp"
+
+namespace carom {
+
+struct World;
+
+/// A meeting of two paths. Stale once either body was hit since: then its version is another.
+struct SweepEvent {
+  FirstContact contact;
+  int a = 0, b = 0;
+  int version_a = 0, version_b = 0;
+
+  /// Later comes first out of a heap; rows decide between equals, so every run has one order.
+  bool operator<(const SweepEvent& other) const {
+    if (contact.time != other.contact.time) return contact.time > other.contact.time;
+    return a != other.a ? a > other.a : b > other.b;
+  }
+};
+
+struct SweepWork {
+  std::vector<double> thickness;   ///< m, by row: inner radius; refreshed with the plan
+  std::vector<double> swing;       ///< m, by row: what a turn moves, about the centre of mass
+  std::vector<std::uint8_t> fast;  ///< by row: swept in this step
+  Array3 position_before;          ///< where the step began
+  Array4 orientation_before;
+  std::vector<BodyPath> paths;      ///< by row, of this step
+  Array3 torque;                    ///< N m, by row: rate of the angular momentum over the step
+  std::vector<std::uint8_t> waits;  ///< by row: stays where it is until the step ends
+  std::vector<int> version, hits;   ///< by row
+  std::vector<Aabb> boxes;          ///< of the paths
+  BoxTree tree;
+  std::vector<SweepEvent> events;  ///< a heap
+  contact::BodyFrames frames;
+  contact::Impacts impacts;
+  std::vector<Manifold> manifolds;
+  std::vector<Contact> contacts;
+  std::vector<contact::Patch> patches;
+};
+
+/// Paths of all bodies from their states before and after the integration.
+void lay_paths(World& world);
+/// Path of one body from time t on, from its state there: position, orientation, velocity,
+/// momentum. Leaves in the states where it ends.
+void lay_path(World& world, int row, double t, const Eigen::Vector3d& acceleration);
+/// Puts the states of a row to time t of its path.
+void go_to(World& world, int row, double t);
+/// Stops a body where it is at time t, until the step ends; it keeps its velocity.
+void wait_at(World& world, int row, double t);
+/// Box of the rest of a path.
+[[nodiscard]] Aabb path_bounds(const World& world, int row);
+
+/// Resolves a hit: both bodies at its time, impulses with friction and restitution, new paths.
+void strike(World& world, const SweepEvent& event);
+
+}  // namespace carom

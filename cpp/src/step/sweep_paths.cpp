@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "carom/numerics/rotation.hpp"
+#include "carom/numerics/tolerance.hpp"
+#include "carom/step/rotation.hpp"
+
+#include "step/sweep.hpp"
+#include "step/world.hpp"
+
+namespace carom {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+/// Free rotation of one body at constant momentum, by the integrator of the simulation.
+Quaterniond turned(const World& world, Quaterniond q, const Vector3d& l, const Vector3d& inverse,
+                   double dt) {
+  RotationReport ignored;
+  advance_rotation(world.options.integrator,
+                   {&q.x(), &q.y(), &q.z(), &q.w(), &l.x(), &l.y(), &l.z(), &inverse.x(),
+                    &inverse.y(), &inverse.z()},
+                   0, 1, dt, ignored);
+  return q;
+}
+
+bool turns_evenly(const BodyStates& s, int i) {
+  const Vector3d m = s.moments[i];
+  return m[2] - m[0] <= tolerance::equal_moments * m[2];
+}
+
+/// Arcs from the principal orientation q0 at t0, at the momentum of the states, to the end of the
+/// step; to q1 there where it is given.
+void lay_arcs(const World& world, int i, double t0, const Quaterniond& q0, const Quaterniond* q1,
+              BodyPath& path) {
+  const BodyStates& s = world.states;
+  const Vector3d l = s.angular_momentum[i], inverse = s.inverse_moments[i];
+  const double rest = world.dt - t0;
+  const Quaterniond to_body = s.axes_b[i].conjugate();
+  const Vector3d omega = q0 * inverse.cwiseProduct(q0.conjugate() * l);
+  // |omega| of a top stays below |L| over its least moment that resists.
+  const double most = turns_evenly(s, i) ? omega.norm() : l.norm() * inverse.maxCoeff();
+  path.arcs.clear();
+  if (!(rest > 0) || (most == 0 && !q1)) {
+    path.arcs.push_back({t0, q0 * to_body, Vector3d::Zero()});
+    return;
+  }
+  if (turns_evenly(s, i) && (!q1 || most * rest > tolerance::sweep_arc)) {
+    path.arcs.push_back({t0, q0 * to_body, omega});
+    return;
+  }
+  const int n = static_cast<int>(
+      std::clamp(std::ceil(most * rest / tolerance::sweep_arc), 1.0, tolerance::rotation_substeps));
+  const double h = rest / n;
+  Quaterniond q = q0;
+  for (int k = 0; k < n; ++k) {
+    const bool last = k + 1 == n;
+    const Quaterniond next = last && q1 ? *q1 : turned(world, q, l, inverse, h);
+    path.arcs.push_back({t0 + k * h, q * to_body, rotation_logarithm(next * q.conjugate()) / h});
+    q = next;
+  }
+}
+
+}  // namespace
+
+void lay_paths(World& world) {
+  SweepWork& w = world.sweep;
+  const BodyStates& s = world.states;
+  const int n = s.size();
+  w.paths.resize(n);
+  w.torque.x.assign(n, 0), w.torque.y.assign(n, 0), w.torque.z.assign(n, 0);
+  const bool solved = world.plan.runs(StageKind::solve);
+  for (int i = 0; i < n; ++i) {
+    BodyPath& path = w.paths[i];
+    path.start = 0;
+    path.com_b = s.com_b[i];
+    path.centre = w.position_before[i];
+    path.acceleration.setZero(), path.velocity.setZero();
+    if (!s.moves[i]) {
+      path.arcs.assign(1, {0, s.orientation[i] * s.axes_b[i].conjugate(), Vector3d::Zero()});
+      continue;
+    }
+    const bool pushed = solved && world.solver.motion().decided[i];
+    if (!pushed) {
+      path.acceleration = (s.velocity[i] - world.velocity_before[i]) / world.dt;
+      w.torque.set(i, (s.angular_momentum[i] - world.angular_momentum_before[i]) / world.dt);
+    }
+    path.velocity = (s.position[i] - path.centre) / world.dt - 0.5 * world.dt * path.acceleration;
+    const Quaterniond q1 = s.orientation[i];
+    lay_arcs(world, i, 0, w.orientation_before[i], &q1, path);
+  }
+}
+
+void go_to(World& world, int i, double t) {
+  BodyStates& s = world.states;
+  if (!s.moves[i]) return;
+  SweepWork& w = world.sweep;
+  const BodyPath& path = w.paths[i];
+  const double rest = world.dt - t;
+  s.position.set(i, path.centre_at(t));
+  s.orientation.set(i, (path.pose_at(t).orientation * s.axes_b[i]).normalized());
+  if (w.waits[i]) return;
+  s.velocity.set(i, s.velocity[i] - rest * path.acceleration);
+  s.angular_momentum.set(i, s.angular_momentum[i] - rest * w.torque[i]);
+}
+
+void lay_path(World& world, int i, double t, const Vector3d& acceleration) {
+  BodyStates& s = world.states;
+  if (!s.moves[i]) return;
+  SweepWork& w = world.sweep;
+  BodyPath& path = w.paths[i];
+  if (w.waits[i]) return;
+  const double rest = world.dt - t;
+  path.start = t;
+  path.centre = s.position[i];
+  path.velocity = s.velocity[i];
+  path.acceleration = acceleration;
+  lay_arcs(world, i, t, s.orientation[i], nullptr, path);
+  s.position.set(i, path.centre_at(world.dt));
+  s.orientation.set(i, (path.pose_at(world.dt).orientation * s.axes_b[i]).normalized());
+  s.velocity.set(i, s.velocity[i] + rest * acceleration);
+  s.angular_momentum.set(i, s.angular_momentum[i] + rest * w.torque[i]);
+}
+
+void wait_at(World& world, int i, double t) {
+  SweepWork& w = world.sweep;
+  if (!world.states.moves[i] || w.waits[i]) return;
+  go_to(world, i, t);
+  BodyPath& path = w.paths[i];
+  const Quaterniond q = path.pose_at(t).orientation;
+  path.start = t;
+  path.centre = world.states.position[i];
+  path.velocity.setZero(), path.acceleration.setZero();
+  path.arcs.assign(1, {t, q, Vector3d::Zero()});
+  w.waits[i] = 1;
+  world.report.sweep.waited += 1;
+  world.report.sweep.time_lost += world.dt - t;
+}
+
+Aabb path_bounds(const World& world, int i) {
+  const SweepWork& w = world.sweep;
+  const Shape& shape = world.scene.bodies[i].shape;
+  const double radius = bounding_radius(shape) + w.paths[i].com_b.norm();
+  return w.paths[i]
+      .centre_bounds(w.paths[i].start, world.dt)
+      .inflated(radius + tolerance::sweep_clear);
+}
+
+}  // namespace carom
