@@ -41,7 +41,9 @@ def request_of(
         velocity=text.get("velocity", (0.0, 0.0, 0.0)),
         angular_velocity=text.get("angular_velocity", (0.0, 0.0, 0.0)),
         properties={
-            key: text[key] for key in ("mass", "density", "friction", "restitution") if key in text
+            key: text[key]
+            for key in ("mass", "density", "friction", "restitution", "ccd")
+            if key in text
         },
         static=text.get("static", False),
         frames=text.get("frames", {}),

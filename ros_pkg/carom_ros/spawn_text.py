@@ -6,7 +6,7 @@ from carom_ros.refusal import Refusal
 from carom_ros.requests import Vector
 
 EXAMPLE = "{name: crate, mass: 2, friction: 0.5}"
-_PLAIN = ("mass", "density", "friction", "restitution")
+_PLAIN = ("mass", "density", "friction", "restitution", "ccd")
 KEYS = ("name", *_PLAIN, "velocity", "angular_velocity", "static", "frames")
 
 
@@ -58,6 +58,12 @@ def _static(value: object, field: str) -> bool:
     return value
 
 
+def _ccd(value: object, field: str) -> str:
+    if value not in ("auto", "always", "never"):
+        raise Refusal(field, value, "must be auto, always or never", "auto is right for most")
+    return str(value)
+
+
 def _frames(value: object, field: str) -> dict[str, Vector]:
     if not isinstance(value, dict) or len(value) > 64:
         raise Refusal(field, value, "must be at most 64 names with points", "{handle: [0, 0, 0.5]}")
@@ -75,6 +81,7 @@ _READERS = {
     "density": _density,
     "friction": _friction,
     "restitution": _restitution,
+    "ccd": _ccd,
     "velocity": lambda v, f: checks.vector(v, f, limits.SPEED_M_S, "m/s"),
     "angular_velocity": lambda v, f: checks.vector(v, f, limits.SPIN_RAD_S, "rad/s"),
     "static": _static,

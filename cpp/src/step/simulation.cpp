@@ -53,7 +53,7 @@ void refresh_plan(World& world) {
   world.plan = compile(world.scene, !world.requests.empty());
   if (!world.asleep.empty())
     std::erase_if(world.plan.movers, [&](int i) { return !world.states.moves[i]; });
-  if (world.plan.runs(StageKind::sweep)) measure_bodies(world);
+  if (world.plan.runs(StageKind::pairs)) measure_bodies(world);
   world.plan_is_stale = false;
 }
 

@@ -52,6 +52,13 @@ TEST(Plan, AGroundUnderABallCallsForContacts) {
   scene.add({.name = "ground", .shape = Plane{}, .is_static = true});
   EXPECT_EQ(running(scene), "");  // nothing moves
   scene.add({.shape = Sphere{1}});
+  EXPECT_EQ(running(scene), "pairs contacts solve integrate sweep ");
+}
+
+TEST(Plan, NobodyIsFollowedWhereAllMayPass) {
+  Scene scene;
+  scene.add({.name = "ground", .shape = Plane{}, .is_static = true});
+  scene.add({.shape = Sphere{1}, .ccd = Ccd::never});
   EXPECT_EQ(running(scene), "pairs contacts solve integrate ");
 }
 

@@ -11,7 +11,6 @@ void run_pairs(World& world) {
   const BodyStates& s = world.states;
   world.boxes.resize(s.size());
   world.reach.resize(s.size());
-  const bool sweeps = world.plan.runs(StageKind::sweep);
   world.sweep.fast.assign(s.size(), 0);
   for (int i = 0; i < s.size(); ++i) {
     const Shape& shape = world.scene.bodies[i].shape;
@@ -20,9 +19,7 @@ void run_pairs(World& world) {
                                             s.angular_velocity(i).norm() * bounding_radius(shape))
                               : 0;
     // Farther ahead than its own thickness a contact is a guess: the sweep finds what it meets.
-    if (const double most =
-            sweeps && s.moves[i] ? tolerance::sweep_share * world.sweep.thickness[i] : reach;
-        reach > most) {
+    if (const double most = tolerance::sweep_share * world.sweep.thickness[i]; reach > most) {
       reach = most;
       world.sweep.fast[i] = world.scene.bodies[i].ccd != Ccd::never;
     }
