@@ -151,7 +151,7 @@ TEST(FirstContact, NoPairOfShapesOverlapsBeforeTheTimeThatIsSaid) {
     for (std::size_t j = 0; j < movers().size(); ++j)
       for (int trial = 0; trial < 4; ++trial) {
         const Pose a = random_pose(random), b = random_pose(random);
-        const Vector3d apart = random_vector(random).normalized() * 3;
+        const Vector3d apart = random_vector(random).normalized() * 4;
         const BodyPath path_a = path_of(a.position, random_vector(random, 2), {0, 0, -9.81},
                                         random_vector(random, 15), a.orientation);
         const BodyPath path_b = path_of(a.position + apart, -apart * 10 + random_vector(random, 3),
