@@ -138,7 +138,7 @@ const std::vector<Shape>& movers() {
         ConvexHull(points),
         Mesh(l_block()),
         balls,
-        Compound({{Box{{0.6, 0.1, 0.1}}, {}}, {Sphere{0.15}, Pose{{0.3, 0, 0}, {}}}})};
+        Compound({{Box{{0.6, 0.1, 0.1}}, {}}, {Sphere{0.15}, Pose{.position = {0.3, 0, 0}}}})};
   }();
   return all;
 }
