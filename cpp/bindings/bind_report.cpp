@@ -68,6 +68,9 @@ void bind_report(py::module_& m) {
       .def_readonly("gave_up", &SweepReport::gave_up,
                     "pairs not certified to the end of a step: query cap met")
       .def_readonly("time_lost", &SweepReport::time_lost, "s, that those bodies did not move")
+      .def_readonly("verified", &SweepReport::verified,
+                    "pairs of ways looked at again, with Simulation(verify=True)")
+      .def_readonly("crossings", &SweepReport::crossings, "of these, found to cross")
       .def_readonly("smallest_gap", &SweepReport::smallest_gap,
                     "m, least separation of swept pairs; negative: overlap, inf where none was")
       .def("__repr__", [](const SweepReport& s) {

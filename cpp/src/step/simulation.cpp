@@ -98,8 +98,9 @@ Report difference(const Report& now, const Report& then) {
   r.wall_seconds -= then.wall_seconds;
   r.contact.iterations -= then.contact.iterations;
   r.contact.gave_up -= then.contact.gave_up;
-  for (auto field : {&SweepReport::sweeps, &SweepReport::queries, &SweepReport::impacts,
-                     &SweepReport::waited, &SweepReport::gave_up})
+  for (auto field :
+       {&SweepReport::sweeps, &SweepReport::queries, &SweepReport::impacts, &SweepReport::waited,
+        &SweepReport::gave_up, &SweepReport::verified, &SweepReport::crossings})
     r.sweep.*field -= then.sweep.*field;
   r.sweep.time_lost -= then.sweep.time_lost;
   r.rotation.capped -= then.rotation.capped;

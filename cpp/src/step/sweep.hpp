@@ -11,6 +11,7 @@
 #include "carom/state/report.hpp"
 
 #include "contact/impacts.hpp"
+#include "step/verify.hpp"
 
 namespace carom {
 
@@ -42,6 +43,7 @@ struct SweepWork {
   std::vector<Aabb> boxes;          ///< of the paths
   BoxTree tree;
   std::vector<SweepEvent> events;  ///< a heap
+  std::vector<TrailPiece> trail;   ///< ways of the step, kept only to verify it
   contact::BodyFrames frames;
   contact::Impacts impacts;
   std::vector<Manifold> manifolds;

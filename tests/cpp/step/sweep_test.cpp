@@ -187,6 +187,33 @@ TEST(Sweep, WhatIsWedgedWaitsAndIsReported) {
   EXPECT_GT(sweep.impacts, 2);
 }
 
+// The second look is by other code: it must see the crossing of a body that nobody followed, and
+// none where bodies are followed through hits.
+TEST(Sweep, TheSecondLookFindsWhatPassesAndOnlyThat) {
+  for (const bool passes : {true, false})
+    for (const Shape& wall : {Shape(Box{{0.01, 4, 4}}), Shape(sheet())}) {
+      Scene scene;
+      scene.add({.name = "wall", .shape = wall, .is_static = true});
+      scene.add({.name = "ball",
+                 .shape = Sphere{0.05},
+                 .pose = {.position = {-1.234, 0.1, 0.2}},
+                 .velocity = {300, 0, 0},
+                 .restitution = 0.5,
+                 .ccd = passes ? Ccd::never : Ccd::automatic});
+      scene.add({.name = "rod",
+                 .shape = Capsule{0.02, 1},
+                 .pose = {.position = {-0.2, 1, 0}},
+                 .angular_velocity = {0, 90, 0}});
+      scene.effects.emplace_back(UniformGravity{{0, 0, -9.81}});
+      Simulation s(std::move(scene), {.verify = true});
+      for (int k = 0; k < 5; ++k) s.step();
+      EXPECT_EQ(s.report().sweep.crossings, passes ? 1 : 0);
+      EXPECT_EQ(s.report().ok(), !passes);
+      EXPECT_GE(s.report().sweep.verified,
+                2);  // the first step alone has wall and ball, wall and rod
+    }
+}
+
 TEST(Sweep, SlowScenesKeepTheirBitsAndAskNothing) {
   std::uint64_t hash[2];
   for (const Ccd ccd : {Ccd::automatic, Ccd::never}) {

@@ -45,13 +45,15 @@ struct RotationReport {
 /// could not be followed to the end. Nothing has passed through anything else: a body that runs out
 /// of hits waits where it is.
 struct SweepReport {
-  int swept = 0;             ///< bodies followed in the last step
-  std::int64_t sweeps = 0;   ///< pairs of paths asked about
-  std::int64_t queries = 0;  ///< distances that took
-  std::int64_t impacts = 0;  ///< hits resolved at their time
-  std::int64_t waited = 0;   ///< bodies stopped for the rest of a step: too many hits, or gave_up
-  std::int64_t gave_up = 0;  ///< pairs not certified to the end of the step: query cap met
-  double time_lost = 0;      ///< s, that those bodies did not move
+  int swept = 0;               ///< bodies followed in the last step
+  std::int64_t sweeps = 0;     ///< pairs of paths asked about
+  std::int64_t queries = 0;    ///< distances that took
+  std::int64_t impacts = 0;    ///< hits resolved at their time
+  std::int64_t waited = 0;     ///< bodies stopped for the rest of a step: too many hits, or gave_up
+  std::int64_t gave_up = 0;    ///< pairs not certified to the end of the step: query cap met
+  double time_lost = 0;        ///< s, that those bodies did not move
+  std::int64_t verified = 0;   ///< pairs of ways looked at again, with SimulationOptions::verify
+  std::int64_t crossings = 0;  ///< of these, found to cross: a bug, to be told
   /// m, least separation of swept pairs; negative: overlap, infinite where none was swept
   double smallest_gap = std::numeric_limits<double>::infinity();
 };
@@ -76,7 +78,7 @@ struct Report {
 
   [[nodiscard]] bool ok() const {
     return frozen.empty() && contact.gave_up == 0 && rotation.not_converged == 0 &&
-           sweep.waited == 0;
+           sweep.waited == 0 && sweep.crossings == 0;
   }
 };
 

@@ -25,6 +25,9 @@ struct SimulationOptions {
   /// s, for which all bodies of an island must be slower than `sleep_speed` before they rest
   /// without cost until touched; infinite: never.
   double sleep_after = std::numeric_limits<double>::infinity();
+  /// After each step looks at all ways again with the exact predicates of moving corners and edges:
+  /// no core of a body has passed through a surface. Slow; the report counts what it finds.
+  bool verify = false;
   double sleep_speed = 0.01;  ///< m/s, of the fastest point; 1 cm/s is what eyes take for rest
 };
 

@@ -50,10 +50,10 @@ void ask(World& world, int a, int b, double t) {
 /// Asks again about everything a body with a new path may meet.
 void ask_about(World& world, int row, int done, double t) {
   SweepWork& w = world.sweep;
+  if (!world.states.moves[row]) return;
   w.boxes[row] = path_bounds(world, row);
   for (int j = 0; j < static_cast<int>(w.boxes.size()); ++j) {
     if (j == row || j == done || !w.boxes[j].overlaps(w.boxes[row])) continue;
-    if (!world.states.moves[row] && !world.states.moves[j]) continue;
     ask(world, std::min(row, j), std::max(row, j), t);
   }
 }
@@ -66,6 +66,8 @@ void handle(World& world, const SweepEvent& event) {
     return world.states.moves[row] && !w.waits[row] && ++w.hits[row] > tolerance::sweep_hits;
   };
   const bool stop_a = tired(event.a), stop_b = tired(event.b);
+  if (world.options.verify)
+    for (const int row : {event.a, event.b}) keep_trail(world, row, t);
   if (certain) {
     ++world.report.sweep.impacts;
     strike(world, event);
@@ -89,14 +91,16 @@ void run_sweep(World& world) {
   SweepWork& w = world.sweep;
   const int n = world.states.size();
   world.report.sweep.swept = 0;
-  if (!mark_fast(world)) return;
+  const bool any = mark_fast(world);
+  if (!any && !world.options.verify) return;
   lay_paths(world);
   w.waits.assign(n, 0), w.version.assign(n, 0), w.hits.assign(n, 0);
   w.boxes.resize(n);
   for (int i = 0; i < n; ++i)
     w.boxes[i] = world.states.moves[i] ? path_bounds(world, i) : world.boxes[i];
   w.events.clear();
-  for (const BodyPair& pair : w.tree.update(w.boxes, w.fast)) ask(world, pair.a, pair.b, 0);
+  if (any)
+    for (const BodyPair& pair : w.tree.update(w.boxes, w.fast)) ask(world, pair.a, pair.b, 0);
   while (!w.events.empty()) {
     std::pop_heap(w.events.begin(), w.events.end());
     const SweepEvent event = w.events.back();
@@ -105,6 +109,7 @@ void run_sweep(World& world) {
       handle(world, event);
   }
   world.report.sweep.swept = static_cast<int>(std::ranges::count(w.fast, 1));
+  if (world.options.verify) verify_step(world);
 }
 
 }  // namespace carom
