@@ -119,7 +119,13 @@ SolveOutcome ContactSolver::solve(BodyStates& states, const Array3& velocity_bef
       const int row = w.islands.bodies[island.first_body + i];
       memory.direct[row] = solved;
       memory.island[row] = w.islands.bodies[island.first_body];
-      if (choice.direct) memory.newton[row] = static_cast<std::uint16_t>(std::min(newton, 65535));
+      // A running mean that fades while it is not used: what one cold start took must neither
+      // decide alone nor for ever.
+      std::uint16_t& mean = memory.newton[row];
+      if (choice.direct)
+        mean = static_cast<std::uint16_t>((3 * mean + std::min(newton, 65535)) / 4);
+      else if (mean > 4)
+        --mean;
       if (costly || (choice.direct && !solved)) {
         memory.held_off[row] = hold_off;
         memory.newton[row] = 4;
