@@ -14,6 +14,7 @@ namespace {
 constexpr int outer_cap = 30;
 constexpr int line_cap = 30;
 constexpr int idle_cap = 8;
+constexpr double series_most = 0.99;  // mu = 5 on a ball; nearer 1 the sum is rounding
 
 /// Adds X_a S X_b^T with X = [1; arm x]: what a 3x3 stiffness at a point is to two bodies.
 void add_stiffness(Matrix6& h, const Eigen::Matrix3d& s, const Eigen::Matrix3d& arm_a,
@@ -234,7 +235,7 @@ DirectResult DirectSolver::solve(double enough, int newton_cap) {
     const DirectPoint& p = points[i];
     Work& w = work_[i];
     w.start = clamp_coulomb(p.impulse, p.mu);
-    w.shift = w.slip = 0;
+    w.shift = w.slip = w.shift_change = 0;
     const double tangent = w.start.tail<2>().norm();
     if (w.start.x() > 0 && tangent >= p.mu * w.start.x() * tolerance::direct_slides)
       stiffness = tolerance::direct_stiffness_sliding;
@@ -329,7 +330,13 @@ DirectResult DirectSolver::solve(double enough, int newton_cap) {
       const double shift = points[i].mu * w.slip;
       residual = std::max(residual,
                           w.branch == Branch::open ? -w.normal_speed : std::abs(shift - w.shift));
+      // Under a fast slip each round leaves a share mu^2 k / (1 + mu^2 k) of the last one's change
+      // (k: tangential over normal mobility): every third round sums that series.
+      const double change = shift - w.shift, ratio = change / w.shift_change;
       w.shift = shift;
+      if (outer % 3 == 2 && ratio > 0.3 && ratio < series_most)
+        w.shift += change * ratio / (1 - ratio);
+      w.shift_change = change;
       w.start = w.value;
     }
     for (std::size_t i = 0; i < turns.size(); ++i) {

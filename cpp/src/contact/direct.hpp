@@ -72,6 +72,7 @@ class DirectSolver {
     double rho;
     Eigen::Vector3d start, z, value, along;
     double shift, slip, normal_speed;
+    double shift_change;  ///< m/s, in the last round
     Branch branch;
   };
   struct TurnWork {
