@@ -203,6 +203,25 @@ static void quality(Sim& s) {
   js("lost", bad);
 }
 
+// Shapes and where the engine has them now, for pictures: one CSV row a body.
+static void dump(Sim& s, const std::string& path) {
+  FILE* f = fopen(path.c_str(), "w");
+  if (!f) {
+    fprintf(stderr, "cannot write %s\n", path.c_str());
+    _Exit(2);
+  }
+  fprintf(f, "shape,moves,density,size_x,size_y,size_z,x,y,z,qx,qy,qz,qw\n");
+  for (size_t i = 0; i < s.b.size(); i++) {
+    const BodyDef& b = s.b[i];
+    State t = b.dynamic ? s.e->get((int)i) : State{b.pos, b.rot, {}, {}};
+    V3 size = b.shape == BOX ? 2.0 * b.half : V3{2 * b.radius, 2 * b.radius, 2 * b.radius};
+    fprintf(f, "%s,%d,%g,%g,%g,%g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
+            b.shape == BOX ? "box" : "sphere", b.dynamic, b.density, size.x, size.y, size.z, t.p.x,
+            t.p.y, t.p.z, t.q.x, t.q.y, t.q.z, t.q.w);
+  }
+  fclose(f);
+}
+
 static double terrainZ(double x, double y) {
   return 1.0 * std::sin(0.35 * x) * std::cos(0.3 * y) + 0.3 * std::sin(1.1 * x + 0.5 * y);
 }
@@ -533,6 +552,7 @@ int main(int argc, char** argv) {
       js("tris", cells * cells * 2.0);
     }
   }
+  if (o.count("dump")) dump(s, o["dump"]);
   js("contacts", s.e->contacts());  // last: one adaptor needs an extra step to count
   js("engine", s.e->name());
   js("settings", s.e->settings());
