@@ -94,6 +94,7 @@ static void timing(Sim& s, size_t n, size_t settled) {
   double mx = 0;
   for (double x : s.wall) mx = std::max(mx, x);
   js("ms_wall_max", mx);
+  settled = std::min(settled, s.cpu.size());  // of a run that is shorter
   if (settled) {
     js("ms_cpu_settled", mean(s.cpu, s.cpu.size() - settled, settled));
     js("ms_wall_settled", med(s.wall, s.wall.size() - settled));
