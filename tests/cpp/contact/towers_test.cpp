@@ -30,8 +30,10 @@ INSTANTIATE_TEST_SUITE_P(
     Named, Towers,
     testing::Values(Tower{"of_20", 20, 1, 1, 1}, Tower{"of_30", 30, 1, 1, 1},
                     Tower{"under_1e2", 10, 1, 1e2, 1}, Tower{"under_1e3", 10, 1, 1e3, 1},
-                    Tower{"under_1e6", 10, 1, 1e6, 1}, Tower{"on_1e3", 10, 1e3, 1, 1},
-                    Tower{"on_1e6", 10, 1e6, 1, 1}, Tower{"every_second_1e3", 10, 1, 1, 1e3},
+                    Tower{"under_1e6", 10, 1, 1e6, 1}, Tower{"on_1e2", 10, 1e2, 1, 1},
+                    Tower{"on_1e3", 10, 1e3, 1, 1}, Tower{"on_1e6", 10, 1e6, 1, 1},
+                    Tower{"every_second_1e2", 10, 1, 1, 1e2},
+                    Tower{"every_second_1e3", 10, 1, 1, 1e3},
                     Tower{"every_second_1e6", 10, 1, 1, 1e6}),
     [](const auto& one) { return std::string(one.param.name); });
 
@@ -43,18 +45,44 @@ TEST(Towers, FallUnderSmallStepsAlone) {
   EXPECT_GT(stage::stand(simulation, 3).sink, 0.05);
 }
 
-// Pyramid of the peers' driver: boxes of 1 m at 1.02 m.
-TEST(Pyramid, Of20StandsForFiveSeconds) {
-  Scene scene = stage::ground();
-  for (int row = 0; row < 20; ++row)
-    for (int i = 0; i < 20 - row; ++i)
-      scene.add(stage::box({1.02 * (i - 0.5 * (19 - row)), 0, 0.5 + row}, 1.0));
-  Simulation simulation(std::move(scene));
-  const int top = simulation.size() - 1;
-  const Eigen::Vector3d start = simulation.states().position[top];
-  const stage::Stood stood = stage::stand(simulation, 5);
-  EXPECT_LT((simulation.states().position[top] - start).head<2>().norm(), 1e-3);
-  EXPECT_LT(stood.overlap, 5e-4);
+/// Pyramid of the peers' driver: boxes of 1 m at 1.02 m. Drift and sink of its top in 10 s, m.
+struct Pyramid {
+  double drift, sink;
+  stage::Stood stood;
+
+  explicit Pyramid(int rows) : Pyramid(Simulation(scene(rows))) {}
+
+ private:
+  static Scene scene(int rows) {
+    Scene scene = stage::ground();
+    for (int row = 0; row < rows; ++row)
+      for (int i = 0; i < rows - row; ++i)
+        scene.add(stage::box({1.02 * (i - 0.5 * (rows - 1 - row)), 0, 0.5 + row}, 1.0));
+    return scene;
+  }
+  explicit Pyramid(Simulation simulation) {
+    const int top = simulation.size() - 1;
+    const Eigen::Vector3d start = simulation.states().position[top];
+    stood = stage::stand(simulation, 10);
+    const Eigen::Vector3d moved = simulation.states().position[top] - start;
+    drift = moved.head<2>().norm(), sink = -moved.z();
+  }
+};
+
+TEST(Pyramid, Of20KeepsItsTopInPlace) {
+  const Pyramid pyramid(20);
+  EXPECT_LT(pyramid.drift, 1e-3);
+  EXPECT_LT(pyramid.stood.drift, 2e-3);  // of any box
+  EXPECT_LT(pyramid.stood.overlap, 5e-4);
+}
+
+// The mark for 30 rows is a drift of 1 mm too; small steps leave 2.0 mm, and the direct solver
+// takes islands of at most 300 bodies of the 465. What is held here is that it stands.
+TEST(Pyramid, Of30Stands) {
+  const Pyramid pyramid(30);
+  EXPECT_LT(pyramid.drift, 4e-3);
+  EXPECT_LT(pyramid.sink, 1e-2);
+  EXPECT_LT(pyramid.stood.overlap, 5e-4);
 }
 
 // Soft contact at rest: depth = F / (m_eff (2 pi f)^2). A cube on four points of static ground:
