@@ -27,21 +27,21 @@ Nearest first_of(const TriangleMesh& mesh, const Ray& ray) {
 std::vector<RayHit> AllFaces::raycast(Points origins, Points directions,
                                       double max_distance) const {
   return each_ray(origins, directions, max_distance,
-                  [&](const Ray& ray) { return first_of(mesh_, ray); });
+                  one_by_one<Nearest>([&](const Ray& ray) { return first_of(mesh_, ray); }));
 }
 
 std::vector<std::uint8_t> AllFaces::any_hit(Points origins, Points directions,
                                             double max_distance) const {
   return each_any(origins, directions, max_distance,
-                  [&](const Ray& ray) { return first_of(mesh_, ray).face >= 0; });
+                  one_by_one<std::uint8_t>([&](const Ray& ray) { return first_of(mesh_, ray).face >= 0; }));
 }
 
 std::vector<SegmentHit> AllFaces::segments(Points starts, Points ends) const {
-  return each_segment(starts, ends, [&](const Ray& ray) { return first_of(mesh_, ray); });
+  return each_segment(starts, ends, one_by_one<Nearest>([&](const Ray& ray) { return first_of(mesh_, ray); }));
 }
 
 std::vector<std::uint8_t> AllFaces::blocked(Points starts, Points ends) const {
-  return each_blocked(starts, ends, [&](const Ray& ray) { return first_of(mesh_, ray).face >= 0; });
+  return each_blocked(starts, ends, one_by_one<std::uint8_t>([&](const Ray& ray) { return first_of(mesh_, ray).face >= 0; }));
 }
 
 Overlaps AllFaces::overlaps(Points lower, Points upper) const {

@@ -31,19 +31,24 @@ struct Bvh::Impl {
     if (volume == Volume::sphere) spheres.fit(tree.view());
     if (volume == Volume::oriented_box) oriented_boxes.fit(tree.view());
   }
-  [[nodiscard]] Nearest first(const WideTreeView& view, const Ray& ray) const {
-    if (volume == Volume::sphere) return spheres.raycast(view, ray, false);
-    if (volume == Volume::oriented_box) return oriented_boxes.raycast(view, ray, false);
-    Nearest hit;
-    kernels->raycast(view, &ray, 1, &hit);
-    return hit;
+  // Ray queries of a block, as each_block asks them.
+  auto first() const {
+    return [this, view = tree.view()](const Ray* rays, int count, Nearest* out) {
+      if (volume == Volume::box) return kernels->raycast(view, rays, count, out);
+      for (int i = 0; i < count; ++i) out[i] = in_volumes(view, rays[i], false);
+    };
   }
-  [[nodiscard]] std::uint8_t any(const WideTreeView& view, const Ray& ray) const {
-    if (volume == Volume::sphere) return spheres.raycast(view, ray, true).face >= 0;
-    if (volume == Volume::oriented_box) return oriented_boxes.raycast(view, ray, true).face >= 0;
-    std::uint8_t hit;
-    kernels->any_hit(view, &ray, 1, &hit);
-    return hit;
+  auto any() const {
+    return [this, view = tree.view()](const Ray* rays, int count, std::uint8_t* out) {
+      if (volume == Volume::box) return kernels->any_hit(view, rays, count, out);
+      for (int i = 0; i < count; ++i) out[i] = in_volumes(view, rays[i], true).face >= 0;
+    };
+  }
+
+ private:
+  [[nodiscard]] Nearest in_volumes(const WideTreeView& view, const Ray& ray, bool any) const {
+    return volume == Volume::sphere ? spheres.raycast(view, ray, any)
+                                    : oriented_boxes.raycast(view, ray, any);
   }
 };
 
@@ -73,26 +78,20 @@ Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
 
 std::vector<RayHit> Bvh::raycast(Points origins, Points directions, double max_distance) const {
-  const WideTreeView view = impl_->tree.view();
-  return each_ray(origins, directions, max_distance,
-                  [&](const Ray& ray) { return impl_->first(view, ray); });
+  return each_ray(origins, directions, max_distance, impl_->first());
 }
 
 std::vector<std::uint8_t> Bvh::any_hit(Points origins, Points directions,
                                        double max_distance) const {
-  const WideTreeView view = impl_->tree.view();
-  return each_any(origins, directions, max_distance,
-                  [&](const Ray& ray) { return impl_->any(view, ray); });
+  return each_any(origins, directions, max_distance, impl_->any());
 }
 
 std::vector<SegmentHit> Bvh::segments(Points starts, Points ends) const {
-  const WideTreeView view = impl_->tree.view();
-  return each_segment(starts, ends, [&](const Ray& ray) { return impl_->first(view, ray); });
+  return each_segment(starts, ends, impl_->first());
 }
 
 std::vector<std::uint8_t> Bvh::blocked(Points starts, Points ends) const {
-  const WideTreeView view = impl_->tree.view();
-  return each_blocked(starts, ends, [&](const Ray& ray) { return impl_->any(view, ray); });
+  return each_blocked(starts, ends, impl_->any());
 }
 
 Overlaps Bvh::overlaps(Points lower, Points upper) const {

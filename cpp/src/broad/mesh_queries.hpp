@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "carom/broad/mesh_index.hpp"
@@ -13,12 +14,6 @@
 #include "broad/triangle_queries.hpp"
 
 namespace carom::broad {
-
-/// A ray and how its parameter reads in the units of the question.
-struct Question {
-  Ray ray;
-  double unit;  ///< answer = t unit (rays: m; segments: fraction)
-};
 
 /// Exact: a power of two brings the largest component of `step` into [1/2, 1). Its exponent.
 inline int scale_step(const double* step, Ray& ray) {
@@ -43,31 +38,33 @@ inline bool is_zero(const double* v) {
   return v[0] == 0 && v[1] == 0 && v[2] == 0;
 }
 
-/// A direction that is not 0, finite numbers.
-inline void ray_question(const double* origin, const double* direction, double max_distance,
-                         Question& q) {
-  scale_step(direction, q.ray);
-  for (int k = 0; k < 3; ++k) q.ray.start[k] = origin[k];
-  prepare(q.ray);
-  q.unit = std::sqrt(q.ray.step[0] * q.ray.step[0] + q.ray.step[1] * q.ray.step[1] +
-                     q.ray.step[2] * q.ray.step[2]);
-  q.ray.t_max = max_distance / q.unit;
+/// The ray of a question, and how its parameter reads: answer = t unit (rays: m; segments: fraction).
+/// A direction that is not 0, finite numbers. @returns true
+inline bool ray_question(const double* origin, const double* direction, double max_distance,
+                         Ray& ray, double& unit) {
+  scale_step(direction, ray);
+  for (int k = 0; k < 3; ++k) ray.start[k] = origin[k];
+  prepare(ray);
+  unit = std::sqrt(ray.step[0] * ray.step[0] + ray.step[1] * ray.step[1] +
+                     ray.step[2] * ray.step[2]);
+  ray.t_max = max_distance / unit;
+  return true;
 }
 
 /// Finite numbers. @returns false for a segment of no length
-inline bool segment_question(const double* start, const double* end, Question& q) {
+inline bool segment_question(const double* start, const double* end, Ray& ray, double& unit) {
   double step[3];
   for (int k = 0; k < 3; ++k) {
-    q.ray.start[k] = start[k];
+    ray.start[k] = start[k];
     step[k] = end[k] - start[k];
   }
   if (is_zero(step)) return false;
-  const int exponent = scale_step(step, q.ray);
-  prepare(q.ray);
+  const int exponent = scale_step(step, ray);
+  prepare(ray);
   const bool usual = exponent > -1000 && exponent < 1000;
-  q.ray.t_max = usual ? std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52)
+  ray.t_max = usual ? std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52)
                       : std::scalbn(1.0, exponent);
-  q.unit = usual ? std::bit_cast<double>(static_cast<std::uint64_t>(1023 - exponent) << 52)
+  unit = usual ? std::bit_cast<double>(static_cast<std::uint64_t>(1023 - exponent) << 52)
                  : std::scalbn(1.0, -exponent);
   return true;
 }
@@ -86,7 +83,37 @@ void require_mesh(const Eigen::Ref<const TriangleMesh::Vertices>& vertices,
                   const Eigen::Ref<const TriangleMesh::Faces>& faces);
 void require_finite_vertices(const Eigen::Ref<const TriangleMesh::Vertices>& vertices);
 
-/// Asks `first(ray)` -> Nearest for each ray.
+/// Rays asked together, so that an index can let them wait for memory side by side.
+inline constexpr Eigen::Index ray_block = 512;
+
+/// Asks `ask(rays, count, answers)` block by block. `question(i, ray, unit)` makes ray i, or
+/// returns false for none; `keep(i, unit, answer)` takes what was found.
+template <class Answer, class Make, class Ask, class Keep>
+void each_block(Eigen::Index count, Make question, Ask ask, Keep keep) {
+  const auto room = static_cast<std::size_t>(std::min(count, ray_block));
+  std::vector<Ray> rays(room);
+  std::vector<Answer> answers(room);
+  std::vector<std::pair<Eigen::Index, double>> asked(room);  // row and unit
+  for (Eigen::Index begin = 0; begin < count; begin += ray_block) {
+    std::size_t n = 0;
+    for (Eigen::Index i = begin; i < std::min(count, begin + ray_block); ++i) {
+      asked[n].first = i;
+      if (question(i, rays[n], asked[n].second)) ++n;
+    }
+    ask(rays.data(), static_cast<int>(n), answers.data());
+    for (std::size_t k = 0; k < n; ++k) keep(asked[k].first, asked[k].second, answers[k]);
+  }
+}
+
+/// An index that answers ray by ray.
+template <class Answer, class One>
+auto one_by_one(One one) {
+  return [one](const Ray* rays, int count, Answer* out) {
+    for (int i = 0; i < count; ++i) out[i] = one(rays[i]);
+  };
+}
+
+/// Asks `first(rays, count, out)` -> Nearest.
 template <class First>
 std::vector<RayHit> each_ray(Points origins, Points directions, double max_distance, First first) {
   require_same_rows(origins, "origins", directions, "directions");
@@ -94,13 +121,16 @@ std::vector<RayHit> each_ray(Points origins, Points directions, double max_dista
   require_finite_rows(origins, "origins");
   require_directions(directions);
   std::vector<RayHit> out(static_cast<std::size_t>(origins.rows()));
-  Question q;
-  for (Eigen::Index i = 0; i < origins.rows(); ++i) {
-    ray_question(row_at(origins, i), row_at(directions, i), max_distance, q);
-    const Nearest hit = first(q.ray);
-    if (hit.face >= 0)
-      out[static_cast<std::size_t>(i)] = {smaller(hit.t * q.unit, max_distance), hit.face};
-  }
+  each_block<Nearest>(
+      origins.rows(),
+      [&](Eigen::Index i, Ray& ray, double& unit) {
+        return ray_question(row_at(origins, i), row_at(directions, i), max_distance, ray, unit);
+      },
+      first,
+      [&](Eigen::Index i, double unit, const Nearest& hit) {
+        if (hit.face >= 0)
+          out[static_cast<std::size_t>(i)] = {smaller(hit.t * unit, max_distance), hit.face};
+      });
   return out;
 }
 
@@ -112,11 +142,13 @@ std::vector<std::uint8_t> each_any(Points origins, Points directions, double max
   require_finite_rows(origins, "origins");
   require_directions(directions);
   std::vector<std::uint8_t> out(static_cast<std::size_t>(origins.rows()));
-  Question q;
-  for (Eigen::Index i = 0; i < origins.rows(); ++i) {
-    ray_question(row_at(origins, i), row_at(directions, i), max_distance, q);
-    out[static_cast<std::size_t>(i)] = any(q.ray);
-  }
+  each_block<std::uint8_t>(
+      origins.rows(),
+      [&](Eigen::Index i, Ray& ray, double& unit) {
+        return ray_question(row_at(origins, i), row_at(directions, i), max_distance, ray, unit);
+      },
+      any,
+      [&](Eigen::Index i, double, std::uint8_t hit) { out[static_cast<std::size_t>(i)] = hit; });
   return out;
 }
 
@@ -125,12 +157,16 @@ std::vector<SegmentHit> each_segment(Points starts, Points ends, First first) {
   require_same_rows(starts, "starts", ends, "ends");
   require_segments(starts, ends);
   std::vector<SegmentHit> out(static_cast<std::size_t>(starts.rows()));
-  Question q;
-  for (Eigen::Index i = 0; i < starts.rows(); ++i) {
-    if (!segment_question(row_at(starts, i), row_at(ends, i), q)) continue;
-    const Nearest hit = first(q.ray);
-    if (hit.face >= 0) out[static_cast<std::size_t>(i)] = {smaller(hit.t * q.unit, 1), hit.face};
-  }
+  each_block<Nearest>(
+      starts.rows(),
+      [&](Eigen::Index i, Ray& ray, double& unit) {
+        return segment_question(row_at(starts, i), row_at(ends, i), ray, unit);
+      },
+      first,
+      [&](Eigen::Index i, double unit, const Nearest& hit) {
+        if (hit.face >= 0)
+          out[static_cast<std::size_t>(i)] = {smaller(hit.t * unit, 1), hit.face};
+      });
   return out;
 }
 
@@ -139,10 +175,13 @@ std::vector<std::uint8_t> each_blocked(Points starts, Points ends, Any any) {
   require_same_rows(starts, "starts", ends, "ends");
   require_segments(starts, ends);
   std::vector<std::uint8_t> out(static_cast<std::size_t>(starts.rows()), 0);
-  Question q;
-  for (Eigen::Index i = 0; i < starts.rows(); ++i)
-    if (segment_question(row_at(starts, i), row_at(ends, i), q))
-      out[static_cast<std::size_t>(i)] = any(q.ray);
+  each_block<std::uint8_t>(
+      starts.rows(),
+      [&](Eigen::Index i, Ray& ray, double& unit) {
+        return segment_question(row_at(starts, i), row_at(ends, i), ray, unit);
+      },
+      any,
+      [&](Eigen::Index i, double, std::uint8_t hit) { out[static_cast<std::size_t>(i)] = hit; });
   return out;
 }
 

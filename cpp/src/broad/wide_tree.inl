@@ -276,6 +276,23 @@ static inline bool hits_any(const WideTreeView& tree, const Ray& ray) {
   }
 }
 
+#if defined(__AVX2__)
+#include "broad/ray_stream.inl"
+
+static void raycast(const WideTreeView& tree, const Ray* rays, int count, Nearest* out) {
+  if (tree.root == no_child)
+    for (int i = 0; i < count; ++i) out[i] = {rays[i].t_max, -1};
+  else
+    walk<false>(tree, rays, count, [&](int i, const Nearest& best) { out[i] = best; });
+}
+
+static void any_hit(const WideTreeView& tree, const Ray* rays, int count, std::uint8_t* out) {
+  if (tree.root == no_child)
+    for (int i = 0; i < count; ++i) out[i] = 0;
+  else
+    walk<true>(tree, rays, count, [&](int i, const Nearest& best) { out[i] = best.face >= 0; });
+}
+#else
 static void raycast(const WideTreeView& tree, const Ray* rays, int count, Nearest* out) {
   for (int i = 0; i < count; ++i) out[i] = first_hit(tree, rays[i]);
 }
@@ -283,6 +300,7 @@ static void raycast(const WideTreeView& tree, const Ray* rays, int count, Neares
 static void any_hit(const WideTreeView& tree, const Ray* rays, int count, std::uint8_t* out) {
   for (int i = 0; i < count; ++i) out[i] = static_cast<std::uint8_t>(hits_any(tree, rays[i]));
 }
+#endif
 
 // Lower x, y, z and upper x, y, z of each triangle of a leaf; unused lanes are empty boxes.
 static inline void leaf_boxes(const Leaf& leaf, double (*box)[leaf_width]) {

@@ -2,6 +2,8 @@
 #if defined(__AVX2__)
 #include <immintrin.h>
 
+#include <type_traits>
+
 #include "broad/wide_tree.hpp"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed only within this file
