@@ -13,34 +13,21 @@ static constexpr int walkers = 16;
 static constexpr int below_stack = 8;  // room for eight keys to be read below the lowest
 static constexpr int end_of_stack = below_stack - 1;
 
-/// Waiting children. A key is the bits of the (positive) entry, the lowest three of which hold the
-/// child's lane: as an integer without them it is a lower bound that orders like the float.
-struct WaitingList {
+/// A ray on its way. A key of a waiting child is the bits of its (positive) entry, the lowest three
+/// of which hold its lane: as an integer without them it is a lower bound that orders like the float.
+struct alignas(64) Walker {
+  NarrowRay fast;
+  const Ray* ray;
+  Nearest best;
+  int limit;          ///< bits of the float, negative before the start
+  int top;            ///< one past the next child
+  int id;             ///< of the ray
+  std::uint32_t ref;  ///< what this turn is about
   int keys[below_stack + stack_size + wide];
   std::uint32_t refs[below_stack + stack_size + wide];
 };
 
-struct Walker {
-  NarrowRay fast;
-  const Ray* ray;
-  Nearest best;
-  int limit;  ///< bits of the float, negative before the start
-  int top;    ///< one past the next child
-  int id;
-};
-
-struct RayStream {
-  Walker walker[walkers];
-  WaitingList waiting[walkers];
-};
-
 enum Turn : unsigned { node_turn, leaf_turn, end_turn, turns };
-
-struct Round {
-  int of[turns][walkers];
-  int count[turns] = {0, 0, 0};
-  std::uint32_t ref[walkers];
-};
 
 // Larger keys first, by the bitonic network.
 static inline __m256i descending(__m256i v) {
@@ -59,20 +46,27 @@ static inline __m256i descending(__m256i v) {
   return order(v, _mm256_shuffle_epi32(v, 0xB1), In{});
 }
 
-static inline void prefetch_next(const WideTreeView& tree, std::uint32_t ref) {
-  const std::uintptr_t leaf = ref >> 31;
-  const std::uintptr_t from = leaf != 0 ? reinterpret_cast<std::uintptr_t>(tree.leaves)
-                                        : reinterpret_cast<std::uintptr_t>(tree.nodes);
-  const std::uintptr_t size = leaf != 0 ? sizeof(Leaf) : sizeof(WideNode);
-  const char* const at = reinterpret_cast<const char*>(from + (ref & ~leaf_flag) * size);
-  for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
-}
+/// Nodes and leaves by the upper bit of a reference: no branch to guess.
+struct Places {
+  std::uintptr_t base[2], size[2];
 
-// Children entered, the nearest on top of the list; `list` is its top.
-static inline int push_entered(const WideNode& node, const NarrowRay& ray, int limit, int* keys,
-                               std::uint32_t* refs) {
+  explicit Places(const WideTreeView& tree)
+      : base{reinterpret_cast<std::uintptr_t>(tree.nodes),
+             reinterpret_cast<std::uintptr_t>(tree.leaves)},
+        size{sizeof(WideNode), sizeof(Leaf)} {}
+
+  void fetch(std::uint32_t ref) const {
+    const unsigned kind = ref >> 31;
+    const auto at =
+        reinterpret_cast<const char*>(base[kind] + (ref & ~leaf_flag) * size[kind]);
+    for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
+  }
+};
+
+// Children entered, the nearest on top.
+static inline void push_ordered(const WideNode& node, Walker& w) {
   alignas(32) float entry[wide];
-  const unsigned mask = enter(node, ray, __builtin_bit_cast(float, limit), entry);
+  const unsigned mask = enter(node, w.fast, __builtin_bit_cast(float, w.limit), entry);
   const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
   const __m256i near = _mm256_load_si256(reinterpret_cast<const __m256i*>(entry));
@@ -81,10 +75,33 @@ static inline int push_entered(const WideNode& node, const NarrowRay& ray, int l
   const __m256i key = _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(7), near), lane);
   const __m256i sorted = descending(_mm256_or_si256(key, missed));
   const __m256i child = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.child));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(keys), sorted);
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(refs),
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(w.keys + w.top), sorted);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(w.refs + w.top),
                       _mm256_permutevar8x32_epi32(child, sorted));
-  return __builtin_popcount(mask);
+  w.top += __builtin_popcount(mask);
+}
+
+/// Row m: the lanes in the mask m, then any.
+struct PackedLanes {
+  alignas(64) std::uint8_t of[256][wide];
+  constexpr PackedLanes() : of{} {
+    for (unsigned mask = 0; mask < 256; ++mask)
+      for (unsigned lane = 0, count = 0; lane < wide; ++lane)
+        if ((mask >> lane & 1U) != 0) of[mask][count++] = static_cast<std::uint8_t>(lane);
+  }
+};
+static constexpr PackedLanes packed_lanes;
+
+// Children entered, in any order.
+static inline void push_any(const WideNode& node, Walker& w) {
+  alignas(32) float entry[wide];
+  const unsigned mask = enter(node, w.fast, __builtin_bit_cast(float, w.limit), entry);
+  const __m256i lanes = _mm256_cvtepu8_epi32(
+      _mm_loadl_epi64(reinterpret_cast<const __m128i*>(packed_lanes.of[mask])));
+  const __m256i child = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.child));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(w.refs + w.top),
+                      _mm256_permutevar8x32_epi32(child, lanes));
+  w.top += __builtin_popcount(mask);
 }
 
 // Waiting children at the top that begin beyond `limit`, at most seven; keys: the upper eight.
@@ -96,69 +113,66 @@ static inline int culled(const int* keys, int limit) {
   return __builtin_clz(kept | 1U) - 24;
 }
 
-static inline void start(const WideTreeView& tree, const Ray* rays, int id, Walker& w,
-                         WaitingList& waiting) {
+static inline void start(const WideTreeView& tree, const Ray* rays, int id, Walker& w) {
   w.fast = narrow(rays[id], tree.frame);
   w.ray = rays + id;
   w.best = {rays[id].t_max, -1};
   w.limit = __builtin_bit_cast(int, w.fast.limit(w.best.t));
   w.id = id;
   w.top = below_stack + 1;
-  waiting.refs[end_of_stack] = tree.root;  // never followed, but may be fetched
-  waiting.refs[below_stack] = tree.root;
-  waiting.keys[below_stack] = std::numeric_limits<int>::min();
+  w.refs[end_of_stack] = w.refs[below_stack] = tree.root;  // the first is fetched, never followed
+  w.keys[below_stack] = std::numeric_limits<int>::min();
 }
 
 /// @tparam any the first hit found will do
 template <bool any, class Done>
 static inline void walk(const WideTreeView& tree, const Ray* rays, int count, Done done) {
-  RayStream s;
-  int active[walkers], active_count = 0, next = 0;
-  for (; next < count && active_count < walkers; ++next) {
-    for (int i = 0; i < below_stack; ++i)
-      s.waiting[next].keys[i] = std::numeric_limits<int>::min();
-    start(tree, rays, next, s.walker[next], s.waiting[next]);
-    active[active_count++] = next;
+  Walker walker[walkers];
+  Walker* active[walkers];
+  int active_count = 0, next = 0;
+  for (; next < count && next < walkers; ++next) {
+    Walker& w = walker[next];
+    for (int i = 0; i < below_stack; ++i) w.keys[i] = std::numeric_limits<int>::min();
+    start(tree, rays, next, w);
+    active[active_count++] = &w;
   }
+  const Places places(tree);
   while (active_count > 0) {
-    Round round;
+    Walker* turn[turns][walkers];
+    int turn_count[turns] = {0, 0, 0};
     for (int i = 0; i < active_count; ++i) {
-      const int at = active[i];
-      Walker& w = s.walker[at];
-      const WaitingList& waiting = s.waiting[at];
-      if constexpr (!any) w.top -= culled(waiting.keys + w.top - 8, w.limit);
-      const int taken = --w.top;
-      const std::uint32_t ref = waiting.refs[taken];
-      round.ref[at] = ref;
-      const unsigned turn = taken == end_of_stack ? end_turn : ref >> 31;
-      round.of[turn][round.count[turn]++] = at;
+      Walker& w = *active[i];
+      int at = w.top;
+      if constexpr (!any) at -= culled(w.keys + at - 8, w.limit);
+      w.top = --at;
+      w.ref = w.refs[at];
+      const unsigned kind = at == end_of_stack ? end_turn : w.ref >> 31;
+      turn[kind][turn_count[kind]++] = &w;
     }
     active_count = 0;
-    for (int i = 0; i < round.count[node_turn]; ++i) {
-      const int at = active[active_count++] = round.of[node_turn][i];
-      Walker& w = s.walker[at];
-      WaitingList& waiting = s.waiting[at];
-      w.top += push_entered(tree.nodes[round.ref[at]], w.fast, w.limit, waiting.keys + w.top,
-                            waiting.refs + w.top);
-      prefetch_next(tree, waiting.refs[w.top - 1]);
+    for (int i = 0; i < turn_count[node_turn]; ++i) {
+      Walker& w = *(active[active_count++] = turn[node_turn][i]);
+      if constexpr (any)
+        push_any(tree.nodes[w.ref], w);
+      else
+        push_ordered(tree.nodes[w.ref], w);
+      places.fetch(w.refs[w.top - 1]);
     }
-    for (int i = 0; i < round.count[leaf_turn]; ++i) {
-      const int at = active[active_count++] = round.of[leaf_turn][i];
-      Walker& w = s.walker[at];
-      nearest_of_leaf(tree.leaves[round.ref[at] & ~leaf_flag], *w.ray, w.best);
-      if constexpr (any) {
+    for (int i = 0; i < turn_count[leaf_turn]; ++i) {
+      Walker& w = *(active[active_count++] = turn[leaf_turn][i]);
+      nearest_of_leaf(tree.leaves[w.ref & ~leaf_flag], *w.ray, w.best);
+      if constexpr (any)
         w.top = w.best.face >= 0 ? below_stack : w.top;
-      } else {
+      else
         w.limit = __builtin_bit_cast(int, w.fast.limit(w.best.t));
-      }
-      prefetch_next(tree, s.waiting[at].refs[w.top - 1]);
+      places.fetch(w.refs[w.top - 1]);
     }
-    for (int i = 0; i < round.count[end_turn]; ++i) {
-      const int at = round.of[end_turn][i];
-      done(s.walker[at].id, s.walker[at].best);
+    for (int i = 0; i < turn_count[end_turn]; ++i) {
+      Walker& w = *turn[end_turn][i];
+      done(w.id, w.best);
       if (next == count) continue;
-      start(tree, rays, next++, s.walker[at], s.waiting[at]);
-      active[active_count++] = at;
+      start(tree, rays, next++, w);
+      active[active_count++] = &w;
     }
   }
 }

@@ -31,7 +31,9 @@ static inline double larger(double a, double b) {
 
 static inline void prepare(Ray& ray) {
   const auto size = [&](int k) { return ray.step[k] < 0 ? -ray.step[k] : ray.step[k]; };
-  ray.kz = size(0) > size(1) ? (size(0) > size(2) ? 0 : 2) : (size(1) > size(2) ? 1 : 2);
+  // Arithmetic, since a processor guesses the largest of three unknown numbers wrongly.
+  const int first = static_cast<int>(size(0) > size(1));
+  ray.kz = 2 - static_cast<int>(larger(size(0), size(1)) > size(2)) * (1 + first);
   ray.kx = ray.kz == 2 ? 0 : ray.kz + 1;
   ray.ky = ray.kx == 2 ? 0 : ray.kx + 1;
   ray.shear[0] = ray.step[ray.kx] / ray.step[ray.kz];
