@@ -32,16 +32,20 @@ std::vector<RayHit> AllFaces::raycast(Points origins, Points directions,
 
 std::vector<std::uint8_t> AllFaces::any_hit(Points origins, Points directions,
                                             double max_distance) const {
-  return each_any(origins, directions, max_distance,
-                  one_by_one<std::uint8_t>([&](const Ray& ray) { return first_of(mesh_, ray).face >= 0; }));
+  return each_any(origins, directions, max_distance, one_by_one<std::uint8_t>([&](const Ray& ray) {
+                    return first_of(mesh_, ray).face >= 0;
+                  }));
 }
 
 std::vector<SegmentHit> AllFaces::segments(Points starts, Points ends) const {
-  return each_segment(starts, ends, one_by_one<Nearest>([&](const Ray& ray) { return first_of(mesh_, ray); }));
+  return each_segment(starts, ends,
+                      one_by_one<Nearest>([&](const Ray& ray) { return first_of(mesh_, ray); }));
 }
 
 std::vector<std::uint8_t> AllFaces::blocked(Points starts, Points ends) const {
-  return each_blocked(starts, ends, one_by_one<std::uint8_t>([&](const Ray& ray) { return first_of(mesh_, ray).face >= 0; }));
+  return each_blocked(starts, ends, one_by_one<std::uint8_t>([&](const Ray& ray) {
+                        return first_of(mesh_, ray).face >= 0;
+                      }));
 }
 
 Overlaps AllFaces::overlaps(Points lower, Points upper) const {

@@ -306,10 +306,12 @@ std::vector<std::uint8_t> HashGrid::any_hit(Points origins, Points directions,
                   one_by_one<std::uint8_t>([&](const Ray& ray) { return impl_->hits_any(ray); }));
 }
 std::vector<SegmentHit> HashGrid::segments(Points starts, Points ends) const {
-  return each_segment(starts, ends, one_by_one<Nearest>([&](const Ray& ray) { return impl_->first_hit(ray); }));
+  return each_segment(starts, ends,
+                      one_by_one<Nearest>([&](const Ray& ray) { return impl_->first_hit(ray); }));
 }
 std::vector<std::uint8_t> HashGrid::blocked(Points starts, Points ends) const {
-  return each_blocked(starts, ends, one_by_one<std::uint8_t>([&](const Ray& ray) { return impl_->hits_any(ray); }));
+  return each_blocked(
+      starts, ends, one_by_one<std::uint8_t>([&](const Ray& ray) { return impl_->hits_any(ray); }));
 }
 Overlaps HashGrid::overlaps(Points lower, Points upper) const {
   return each_box(lower, upper,

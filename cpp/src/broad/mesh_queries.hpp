@@ -38,15 +38,15 @@ inline bool is_zero(const double* v) {
   return v[0] == 0 && v[1] == 0 && v[2] == 0;
 }
 
-/// The ray of a question, and how its parameter reads: answer = t unit (rays: m; segments: fraction).
-/// A direction that is not 0, finite numbers. @returns true
+/// The ray of a question, and how its parameter reads: answer = t unit (rays: m; segments:
+/// fraction). A direction that is not 0, finite numbers. @returns true
 inline bool ray_question(const double* origin, const double* direction, double max_distance,
                          Ray& ray, double& unit) {
   scale_step(direction, ray);
   for (int k = 0; k < 3; ++k) ray.start[k] = origin[k];
   prepare(ray);
-  unit = std::sqrt(ray.step[0] * ray.step[0] + ray.step[1] * ray.step[1] +
-                     ray.step[2] * ray.step[2]);
+  unit =
+      std::sqrt(ray.step[0] * ray.step[0] + ray.step[1] * ray.step[1] + ray.step[2] * ray.step[2]);
   ray.t_max = max_distance / unit;
   return true;
 }
@@ -63,9 +63,9 @@ inline bool segment_question(const double* start, const double* end, Ray& ray, d
   prepare(ray);
   const bool usual = exponent > -1000 && exponent < 1000;
   ray.t_max = usual ? std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52)
-                      : std::scalbn(1.0, exponent);
+                    : std::scalbn(1.0, exponent);
   unit = usual ? std::bit_cast<double>(static_cast<std::uint64_t>(1023 - exponent) << 52)
-                 : std::scalbn(1.0, -exponent);
+               : std::scalbn(1.0, -exponent);
   return true;
 }
 
@@ -164,8 +164,7 @@ std::vector<SegmentHit> each_segment(Points starts, Points ends, First first) {
       },
       first,
       [&](Eigen::Index i, double unit, const Nearest& hit) {
-        if (hit.face >= 0)
-          out[static_cast<std::size_t>(i)] = {smaller(hit.t * unit, 1), hit.face};
+        if (hit.face >= 0) out[static_cast<std::size_t>(i)] = {smaller(hit.t * unit, 1), hit.face};
       });
   return out;
 }

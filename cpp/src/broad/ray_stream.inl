@@ -14,7 +14,8 @@ static constexpr int below_stack = 8;  // room for eight keys to be read below t
 static constexpr int end_of_stack = below_stack - 1;
 
 /// A ray on its way. A key of a waiting child is the bits of its (positive) entry, the lowest three
-/// of which hold its lane: as an integer without them it is a lower bound that orders like the float.
+/// of which hold its lane: as an integer without them it is a lower bound that orders like the
+/// float.
 struct alignas(64) Walker {
   NarrowRay fast;
   const Ray* ray;
@@ -57,8 +58,7 @@ struct Places {
 
   void fetch(std::uint32_t ref) const {
     const unsigned kind = ref >> 31;
-    const auto at =
-        reinterpret_cast<const char*>(base[kind] + (ref & ~leaf_flag) * size[kind]);
+    const auto at = reinterpret_cast<const char*>(base[kind] + (ref & ~leaf_flag) * size[kind]);
     for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
   }
 };

@@ -49,9 +49,10 @@ static inline double within_box(const Ray& ray, double t, const double* a, const
   double entry = 0, exit = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
     if (ray.step[k] == 0) continue;
-    const double low = smaller(smaller(a[k], b[k]), c[k]), high = larger(larger(a[k], b[k]), c[k]);
-    entry = larger(entry, ((ray.step[k] > 0 ? low : high) - ray.start[k]) / ray.step[k]);
-    exit = smaller(exit, ((ray.step[k] > 0 ? high : low) - ray.start[k]) / ray.step[k]);
+    const double ends[2] = {smaller(smaller(a[k], b[k]), c[k]), larger(larger(a[k], b[k]), c[k])};
+    const auto back = static_cast<int>(ray.step[k] < 0);  // an index: no branch to guess wrongly
+    entry = larger(entry, (ends[back] - ray.start[k]) / ray.step[k]);
+    exit = smaller(exit, (ends[1 - back] - ray.start[k]) / ray.step[k]);
   }
   return larger(entry, smaller(t, exit));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "broad/wide_tree.hpp"
 
+#include <type_traits>
+
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif

@@ -34,7 +34,7 @@ struct NarrowRay {
   // Upper bound in tree space of a parameter in metres.
   [[nodiscard]] float limit(double t) const {
     const auto x = static_cast<float>(t * scale - entry);
-    return x + ((x < 0 ? -x : x) * (2 * float_step) + std::numeric_limits<float>::min());
+    return x + (__builtin_fabsf(x) * (2 * float_step) + std::numeric_limits<float>::min());
   }
 };
 
@@ -44,9 +44,7 @@ static inline NarrowRay narrow(const Ray& ray, const Frame& frame) {
   double start[3], largest = 1;
   for (int k = 0; k < 3; ++k) {
     start[k] = ray.start[k] * frame.scale - frame.shift[k];
-    const double shift = frame.shift[k] < 0 ? -frame.shift[k] : frame.shift[k];
-    const double size = start[k] < 0 ? -start[k] : start[k];
-    largest = larger(largest, larger(size, shift));
+    largest = larger(largest, larger(__builtin_fabs(start[k]), __builtin_fabs(frame.shift[k])));
   }
   out.scale = frame.scale;
   out.entry = 0;
@@ -68,21 +66,21 @@ static inline NarrowRay narrow(const Ray& ray, const Frame& frame) {
   // Twice the roundings of transform and shift, and those of hit_time in units of the tree.
   const double error = 32 * u * (largest + reach);
   for (int k = 0; k < 3; ++k) {
-    const bool forward = !(ray.step[k] < 0);
-    out.near_row[k] = forward ? k : 3 + k;
-    out.far_row[k] = forward ? 3 + k : k;
+    const auto back = static_cast<int>(ray.step[k] < 0);  // arithmetic: nothing to guess wrongly
+    const auto sign = static_cast<float>(1 - 2 * back);
+    out.near_row[k] = k + 3 * back;
+    out.far_row[k] = k + 3 * (1 - back);
     // Two units in the last place and more: conversion and this sum lose less than one.
     const auto middle = static_cast<float>(start[k]);
-    const float away = (middle < 0 ? -middle : middle) * (2 * float_step) +
-                       (static_cast<float>(error) + std::numeric_limits<float>::min());
-    out.near_start[k] = forward ? middle + away : middle - away;
-    out.far_start[k] = forward ? middle - away : middle + away;
-    const auto rate = static_cast<float>(1 / (forward ? ray.step[k] : -ray.step[k]));  // inf for 0
+    const float away = sign * (__builtin_fabsf(middle) * (2 * float_step) +
+                               (static_cast<float>(error) + std::numeric_limits<float>::min()));
+    out.near_start[k] = middle + away;
+    out.far_start[k] = middle - away;
+    const auto rate = static_cast<float>(__builtin_fabs(1 / ray.step[k]));  // inf for 0
     float slow = rate * (1 - 4 * float_step);
     slow = slow < float_max ? slow : float_max;
-    const float fast = rate * (1 + 4 * float_step);
-    out.near_rate[k] = forward ? slow : -slow;
-    out.far_rate[k] = forward ? fast : -fast;
+    out.near_rate[k] = sign * slow;
+    out.far_rate[k] = sign * (rate * (1 + 4 * float_step));
   }
   return out;
 }
@@ -279,16 +277,17 @@ static inline bool hits_any(const WideTreeView& tree, const Ray& ray) {
 #if defined(__AVX2__)
 #include "broad/ray_stream.inl"
 
+// Two rays alone are sooner done than the walkers are set up.
 static void raycast(const WideTreeView& tree, const Ray* rays, int count, Nearest* out) {
-  if (tree.root == no_child)
-    for (int i = 0; i < count; ++i) out[i] = {rays[i].t_max, -1};
+  if (count <= 2 || tree.root == no_child)
+    for (int i = 0; i < count; ++i) out[i] = first_hit(tree, rays[i]);
   else
     walk<false>(tree, rays, count, [&](int i, const Nearest& best) { out[i] = best; });
 }
 
 static void any_hit(const WideTreeView& tree, const Ray* rays, int count, std::uint8_t* out) {
-  if (tree.root == no_child)
-    for (int i = 0; i < count; ++i) out[i] = 0;
+  if (count <= 2 || tree.root == no_child)
+    for (int i = 0; i < count; ++i) out[i] = static_cast<std::uint8_t>(hits_any(tree, rays[i]));
   else
     walk<true>(tree, rays, count, [&](int i, const Nearest& best) { out[i] = best.face >= 0; });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #if defined(__AVX2__)
 #include <immintrin.h>
-
 #include <type_traits>
 
 #include "broad/wide_tree.hpp"

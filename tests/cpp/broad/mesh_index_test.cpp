@@ -113,6 +113,39 @@ TEST(MeshIndex, StaysShallowForNestedSizes) {
   expect_all_agree(mesh, 200, 11);
 }
 
+// Rays of one call go through the tree together: how many they are, and who goes beside whom, must
+// not show. 513 is one more than a block; 3, 16 and 17 stand around the least and the usual number.
+TEST(Bvh, AnswersARayAloneAsInCompany) {
+  Random random(31);
+  const TriangleMesh mesh = soup(700, 10, 2, random);
+  Queries q(mesh, 513, random);
+  for (Eigen::Index i = 0; i < q.starts.rows(); ++i)
+    if (q.starts.row(i) == q.ends.row(i)) q.ends(i, 0) += 1;
+  for (const Quality quality : {Quality::low, Quality::medium}) {
+    const Bvh tree(mesh.vertices, mesh.faces, Volume::box, quality);
+    for (const double reach : {0.5, 3.0, std::numeric_limits<double>::infinity()}) {
+      std::vector<RayHit> alone;
+      std::vector<std::uint8_t> blocked;
+      for (Eigen::Index i = 0; i < q.starts.rows(); ++i) {
+        const auto start = q.starts.row(i), end = q.ends.row(i);
+        alone.push_back(tree.raycast(start, end - start, reach).front());
+        blocked.push_back(tree.any_hit(start, end - start, reach).front());
+      }
+      for (const Eigen::Index count : {3, 15, 16, 17, 512, 513}) {
+        const TriangleMesh::Vertices origins = q.starts.topRows(count);
+        const TriangleMesh::Vertices directions = q.ends.topRows(count) - origins;
+        const auto together = tree.raycast(origins, directions, reach);
+        const auto any = tree.any_hit(origins, directions, reach);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+          ASSERT_EQ(together[i].face, alone[i].face) << i << " of " << count;
+          ASSERT_EQ(together[i].distance, alone[i].distance) << i << " of " << count;
+          ASSERT_EQ(any[i], blocked[i]) << i << " of " << count;
+        }
+      }
+    }
+  }
+}
+
 TEST(MeshIndex, HoldsNoFacesAtAll) {
   TriangleMesh mesh;
   mesh.vertices.resize(0, 3);
