@@ -140,6 +140,9 @@ WideTree build_over(const VertexRef& vertices, const FaceRef& faces, PageArray<B
   if (n == 0) return tree;
   PageArray<int> leaf_begin(static_cast<std::size_t>(n) + 1);
   if (quality == Quality::low) sort_by_morton(items);
+  // Fits a cache of the second level; larger ranges are parted in place.
+  constexpr int spill_most = 1 << 14;
+  PageArray<BuildItem> spill(static_cast<std::size_t>(std::min(n, spill_most)));
   BuildTarget target{};
   // Trees of meshes need n / 15 nodes or so; n always does, since each node has two children.
   for (int capacity = n / 10 + 64;; capacity = n) {
@@ -147,6 +150,8 @@ WideTree build_over(const VertexRef& vertices, const FaceRef& faces, PageArray<B
     target = {.items = items.data(),
               .count = n,
               .bins = quality == Quality::high ? max_bins : max_bins / 2,
+              .spill = spill.data(),
+              .spill_count = static_cast<int>(spill.size()),
               .nodes = tree.nodes.data(),
               .node_capacity = capacity,
               .leaf_begin = leaf_begin.data(),

@@ -52,41 +52,79 @@ struct Range {
   [[nodiscard]] int size() const { return end - begin; }
 };
 
+/// Items with a lower bin along one axis go left.
+struct Cut {
+  int axis, bin;
+  float from, times;
+
+  [[nodiscard]] bool left(const BuildItem& item) const {
+    const float centre = item.bounds[axis] - item.bounds[4 + axis];
+    return static_cast<int>((centre - from) * times) < bin;
+  }
+};
+
+// c where it counts, else nothing.
+static inline Floats counted(Floats c, bool counts) {
+#if defined(__AVX2__)
+  const __m256i all = _mm256_set1_epi32(-static_cast<int>(counts));
+  return _mm256_blendv_ps(nothing(), c, _mm256_castsi256_ps(all));
+#else
+  return counts ? c : nothing();
+#endif
+}
+
+static constexpr int worth_two_sets = 256;  // items
+
 struct Builder {
   BuildTarget& to;
-  Floats bin_bounds[3][max_bins];
+  // Twice: neighbours in the list mostly fall into one bin, whose sum would have to wait for itself.
+  Floats bin_bounds[2][3][max_bins];
   int bin_count[3][max_bins];
 
-  // Bounds of both sides while items are moved to their side of `keep_left`.
-  template <class Left>
-  void part(const Range& range, Left goes_left, Range& left, Range& right) {
+  // Moves the items to their sides and finds the bounds of the centres of both. Without a branch on
+  // the side, which nobody can guess: every item is written to both sides, one of which keeps it.
+  void part(const Range& range, const Cut& cut, Range& left, Range& right) {
+    BuildItem* const items = to.items;
+    BuildItem* const spill = to.spill;
+    Floats lc = nothing(), rc = nothing();
+    int kept = range.begin, spilled = 0;
+    for (int i = range.begin; i < range.end; ++i) {
+      const bool goes_left = cut.left(items[i]);
+      const Floats item = bounds_of(items[i]), c = centre_of(item);
+      __builtin_memcpy(items[kept].bounds, &item, sizeof item);
+      __builtin_memcpy(spill[spilled].bounds, &item, sizeof item);
+      kept += static_cast<int>(goes_left);
+      spilled += static_cast<int>(!goes_left);
+      lc = least(lc, counted(c, goes_left));
+      rc = least(rc, counted(c, !goes_left));
+    }
+    __builtin_memcpy(items + kept, spill, static_cast<std::size_t>(spilled) * sizeof(BuildItem));
+    left.centres = lc;
+    right.centres = rc;
+    left.begin = range.begin;
+    left.end = right.begin = kept;
+    right.end = range.end;
+  }
+
+  // The same in place, for more items than there is room to spill.
+  void part_in_place(const Range& range, const Cut& cut, Range& left, Range& right) {
     BuildItem* const items = to.items;
     int i = range.begin, j = range.end;
-    Floats lb = nothing(), lc = nothing(), rb = nothing(), rc = nothing();
+    Floats lc = nothing(), rc = nothing();
     while (true) {
-      while (i < j) {
-        const Floats b = bounds_of(items[i]);
-        const Floats c = centre_of(b);
-        if (!goes_left(c)) break;
-        lb = least(lb, b);
-        lc = least(lc, c);
-        ++i;
-      }
-      while (i < j) {
-        const Floats b = bounds_of(items[j - 1]);
-        const Floats c = centre_of(b);
-        if (goes_left(c)) break;
-        rb = least(rb, b);
-        rc = least(rc, c);
-        --j;
-      }
+      for (; i < j && cut.left(items[i]); ++i) lc = least(lc, centre_of(bounds_of(items[i])));
+      for (; i < j && !cut.left(items[j - 1]); --j)
+        rc = least(rc, centre_of(bounds_of(items[j - 1])));
       if (i >= j) break;
       const BuildItem swap = items[i];
       items[i] = items[j - 1];
       items[j - 1] = swap;
     }
-    left = {range.begin, i, lb, lc};
-    right = {i, range.end, rb, rc};
+    left.centres = lc;
+    right.centres = rc;
+    left.begin = range.begin;
+    left.end = right.begin = i;
+    right.end = range.end;
   }
 
   void gather(Range& side) {
@@ -157,9 +195,11 @@ struct Builder {
 
     for (int k = 0; k < 3; ++k)
       for (int b = 0; b < bins; ++b) {
-        bin_bounds[k][b] = nothing();
+        bin_bounds[0][k][b] = nothing();
         bin_count[k][b] = 0;
       }
+    const int twice = static_cast<int>(n >= worth_two_sets);
+    if (twice != 0) __builtin_memcpy(bin_bounds[1], bin_bounds[0], sizeof bin_bounds[0]);
     for (int i = range.begin; i < range.end; ++i) {
       const Floats b = bounds_of(to.items[i]);
 #if defined(__AVX2__)
@@ -173,13 +213,18 @@ struct Builder {
       const int y = static_cast<int>((c[1] - base[1]) * scale[1]);
       const int z = static_cast<int>((c[2] - base[2]) * scale[2]);
 #endif
-      bin_bounds[0][x] = least(bin_bounds[0][x], b);
-      bin_bounds[1][y] = least(bin_bounds[1][y], b);
-      bin_bounds[2][z] = least(bin_bounds[2][z], b);
+      Floats(&bounds)[3][max_bins] = bin_bounds[i & twice];
+      bounds[0][x] = least(bounds[0][x], b);
+      bounds[1][y] = least(bounds[1][y], b);
+      bounds[2][z] = least(bounds[2][z], b);
       ++bin_count[0][x];
       ++bin_count[1][y];
       ++bin_count[2][z];
     }
+
+    for (int k = 0; k < 3 && twice != 0; ++k)
+      for (int b = 0; b < bins; ++b)
+        bin_bounds[0][k][b] = least(bin_bounds[0][k][b], bin_bounds[1][k][b]);
 
     float best = std::numeric_limits<float>::infinity();
     int best_axis = -1, best_bin = 0;
@@ -189,14 +234,14 @@ struct Builder {
       Floats joined = nothing();
       int count = 0;
       for (int b = bins - 1; b > 0; --b) {
-        joined = least(joined, bin_bounds[k][b]);
+        joined = least(joined, bin_bounds[0][k][b]);
         count += bin_count[k][b];
         right_cost[b] = count > 0 ? half_area(joined) * static_cast<float>(blocks(count)) : 0;
       }
       joined = nothing();
       count = 0;
       for (int b = 1; b < bins; ++b) {
-        joined = least(joined, bin_bounds[k][b - 1]);
+        joined = least(joined, bin_bounds[0][k][b - 1]);
         count += bin_count[k][b - 1];
         if (count == 0 || count == n) continue;
         const float cost = half_area(joined) * static_cast<float>(blocks(count)) + right_cost[b];
@@ -204,12 +249,16 @@ struct Builder {
       }
     }
     if (best_axis < 0) return halve(range, left, right);
-    const int axis = best_axis;
-    const float from = base[axis], times = scale[axis];
-    const int bound = best_bin;
-    part(
-        range, [=](Floats c) { return static_cast<int>((c[axis] - from) * times) < bound; }, left,
-        right);
+    left.bounds = right.bounds = nothing();
+    for (int b = 0; b < bins; ++b) {
+      Range& side = b < best_bin ? left : right;
+      side.bounds = least(side.bounds, bin_bounds[0][best_axis][b]);
+    }
+    const Cut cut{best_axis, best_bin, base[best_axis], scale[best_axis]};
+    if (n <= to.spill_count)
+      part(range, cut, left, right);
+    else
+      part_in_place(range, cut, left, right);
   }
 
   std::uint32_t build(const Range& range, int depth) {

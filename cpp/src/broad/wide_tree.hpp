@@ -58,6 +58,8 @@ struct BuildTarget {
   BuildItem* items;
   int count;
   int bins;  ///< at most max_bins
+  BuildItem* spill;  ///< room for spill_count items, see sah_build.inl
+  int spill_count;
   WideNode* nodes;
   int node_capacity;
   int*
