@@ -68,10 +68,15 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json("carom.cost/1", {**as_json(name, rows), "files": list(map(str, written))})
         return 0
-    _print_table(rows)
+    own_table = getattr(study, "as_text", None)
+    if own_table is not None:
+        print(own_table(rows))
+    else:
+        _print_table(rows)
     about = machine()
     print(f"\n{about['cpu']}, {about['cores']} cores, {about['system']}, carom {about['carom']}")
-    print("* on the Pareto front of its case: no method is both faster and more accurate")
+    if own_table is None:
+        print("* on the Pareto front of its case: no method is both faster and more accurate")
     for path in written:
         print(f"wrote {path}")
     return 0

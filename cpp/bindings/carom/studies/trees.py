@@ -4,7 +4,8 @@
     python -m carom.studies.trees --plot trees.png
 
 Every row is one method on one mesh and one kind of query: build time, queries per second, memory,
-and how many answers differ from a loop over all faces (`wrong`, which must be 0 everywhere).
+and how many answers differ from a loop over all faces (`wrong`, which must be 0 everywhere). Times
+are those of the processor, one thread, so that a busy machine shows little.
 """
 
 from __future__ import annotations
@@ -95,9 +96,9 @@ def _timed(call: Callable[[], object], least: float = 0.02) -> float:
     """Seconds per call, the fastest of repeats over at least `least` seconds."""
     best, spent = np.inf, 0.0
     while spent < least:
-        begin = time.perf_counter()
+        begin = time.thread_time()
         call()
-        took = time.perf_counter() - begin
+        took = time.thread_time() - begin
         best, spent = min(best, took), spent + took
     return best
 
@@ -185,44 +186,106 @@ def grid_wins(rows: list[dict]) -> list[dict]:
     return out
 
 
+def as_text(rows: list[dict]) -> str:
+    """One line per method: what it costs, and thousands of queries per second of each kind. Then
+    where the best grid beats the best tree."""
+    from carom.commands.output import table
+
+    headers = ["case", "method", "cell, m", "build, ms", "memory, MB"]
+    lines = []
+    for case in dict.fromkeys(r["case"] for r in rows):
+        for method in dict.fromkeys(r["method"] for r in rows if r["case"] == case):
+            mine = {r["query"]: r for r in rows if (r["case"], r["method"]) == (case, method)}
+            any_row = mine[QUERIES[0]]
+            lines.append(
+                [
+                    case,
+                    method,
+                    f"{any_row['cell_size']:.3g}" if any_row["cell_size"] else "",
+                    f"{1e3 * any_row['build_s']:.3g}",
+                    f"{any_row['memory_bytes'] / 1e6:.3g}",
+                    *(f"{mine[kind]['queries_per_s'] / 1e3:.4g}" for kind in QUERIES),
+                    str(sum(r["wrong"] for r in mine.values())),
+                ]
+            )
+    text = [table([*headers, *(f"{kind}, k/s" for kind in QUERIES), "wrong"], lines), ""]
+    for w in grid_wins(rows):
+        verdict = "the grid wins" if w["grid_wins"] else "the tree wins"
+        text.append(
+            f"{w['case']}, {w['query']}: {verdict}; {w['grid']} answers {w['ratio']:.2g} times as "
+            f"many queries per second as {w['tree']}"
+        )
+    return "\n".join(text)
+
+
+# Columns of the plot: key, unit factor, label.
+PANELS = (
+    ("queries_per_s", 1e-3, "thousand queries per second"),
+    ("build_s", 1e3, "build / ms"),
+    ("memory_bytes", 1e-6, "memory / MB"),
+)
+
+
 def plot(rows: list[dict], path: str | Path) -> None:
-    """Queries per second, build time and memory of the grid over its cell size; trees as lines."""
+    """Queries per second, build time and memory of the grid over its cell size; the tree of medium
+    quality as dashed lines of the same colours."""
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot as plt
+    from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter, StrMethodFormatter
 
     cases = list(dict.fromkeys(r["case"] for r in rows))
-    figure, axes = plt.subplots(3, len(cases), figsize=(4.2 * len(cases), 9), squeeze=False)
-    columns = (
-        ("queries_per_s", "queries/s"),
-        ("build_s", "build, s"),
-        ("memory_bytes", "memory, bytes"),
+    figure, axes = plt.subplots(
+        len(PANELS),
+        len(cases),
+        figsize=(3.8 * len(cases), 9),
+        squeeze=False,
+        sharex=True,
+        sharey="row",
+        layout="constrained",
     )
     for c, case in enumerate(cases):
         here = [r for r in rows if r["case"] == case]
-        for a, (key, label) in enumerate(columns):
+        for a, (key, factor, label) in enumerate(PANELS):
             axis = axes[a][c]
             for k, kind in enumerate(QUERIES if key == "queries_per_s" else QUERIES[:1]):
-                grid = [r for r in here if r["query"] == kind and r["cell_size"]]
+                mine = {r["method"]: r for r in here if r["query"] == kind}
+                colour = f"C{k}" if key == "queries_per_s" else "0.2"
+                sizes = [m for m in mine if m.startswith("grid")]
                 axis.loglog(
-                    [r["cell_size"] for r in grid],
-                    [r[key] for r in grid],
+                    [_factor(m) for m in sizes],
+                    [factor * mine[m][key] for m in sizes],
                     "o-",
-                    color=f"C{k}",
-                    label=f"grid, {kind}" if key == "queries_per_s" else "grid",
+                    color=colour,
+                    label=f"{kind}: grid",
                 )
-                tree = next(
-                    r for r in here if r["query"] == kind and r["method"] == "bvh box medium"
+                axis.axhline(
+                    factor * mine["bvh box medium"][key],
+                    ls="--",
+                    color=colour,
+                    label=f"{kind}: tree",
                 )
-                axis.axhline(tree[key], ls="--", color=f"C{k}")
-            axis.set_xlabel("cell size, m")
-            axis.set_ylabel(label)
-        axes[0][c].set_title(f"{case}, {here[0]['faces']} faces (dashed: bvh)")
-    axes[0][0].legend(fontsize=7)
-    figure.tight_layout()
+            axis.grid(which="major", alpha=0.3)
+            axis.xaxis.set_major_locator(FixedLocator(CELL_FACTORS))
+            axis.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+            axis.xaxis.set_minor_formatter(NullFormatter())
+            axis.yaxis.set_major_locator(LogLocator())
+            axis.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+            axis.yaxis.set_minor_formatter(NullFormatter())
+            if c == 0:
+                axis.set_ylabel(label)
+        axes[0][c].set_title(f"{case}, {here[0]['faces']} faces")
+        axes[-1][c].set_xlabel("cell size / automatic cell size")
+    handles, labels = axes[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=len(QUERIES), fontsize=9)
     figure.savefig(path, dpi=120)
     plt.close(figure)
+
+
+def _factor(method: str) -> float:
+    """Cell size of a grid's name in automatic sizes."""
+    return 1.0 if method.endswith("automatic") else float(method.split()[-1])
 
 
 def main() -> int:
@@ -232,17 +295,7 @@ def main() -> int:
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
     rows = run(faces=options.faces)
-    print(
-        f"{'case':6} {'query':9} {'method':20} {'cell m':>8} {'build ms':>9} {'kq/s':>9} {'MB':>7}"
-    )
-    for r in rows:
-        cell = f"{r['cell_size']:.3g}" if r["cell_size"] else ""
-        print(
-            f"{r['case']:6} {r['query']:9} {r['method']:20} {cell:>8} {1e3 * r['build_s']:9.2f} "
-            f"{r['queries_per_s'] / 1e3:9.1f} {r['memory_bytes'] / 1e6:7.1f}"
-        )
-    for w in grid_wins(rows):
-        print(f"{w['case']:6} {w['query']:9} best grid / best tree = {w['ratio']:.2f}")
+    print(as_text(rows))
     if options.plot:
         plot(rows, options.plot)
     if options.json:
