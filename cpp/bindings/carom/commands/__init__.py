@@ -6,6 +6,6 @@ from the arguments to an exit code. Other packages add theirs by the entry-point
 `carom.commands`.
 """
 
-from carom.commands import cost, explain, run
+from carom.commands import cost, explain, run, stress
 
-COMMANDS = (run.add, explain.add, cost.add)
+COMMANDS = (run.add, explain.add, cost.add, stress.add)
