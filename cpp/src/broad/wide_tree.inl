@@ -76,7 +76,7 @@ static inline NarrowRay narrow(const Ray& ray, const Frame& frame) {
                                (static_cast<float>(error) + std::numeric_limits<float>::min()));
     out.near_start[k] = middle + away;
     out.far_start[k] = middle - away;
-    const auto rate = static_cast<float>(__builtin_fabs(1 / ray.step[k]));  // inf for 0
+    const auto rate = static_cast<float>(__builtin_fabs(1 / ray.step[k]));  // inf for 0 and -0
     float slow = rate * (1 - 4 * float_step);
     slow = slow < float_max ? slow : float_max;
     out.near_rate[k] = sign * slow;

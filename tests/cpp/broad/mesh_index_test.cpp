@@ -180,6 +180,29 @@ TEST(MeshIndex, LeaksNothingThroughEdgesAndCorners) {
   }
 }
 
+TEST(MeshIndex, TakesMinusZeroForZeroInARaysDirection) {
+  // 1 / -0 is minus infinity. From inside a closed surface every ray must hit it.
+  const TriangleMesh mesh = bumpy_sphere(16, 0.2);
+  Random random(14);
+  TriangleMesh::Vertices from = TriangleMesh::Vertices::Zero(300, 3), along(300, 3);
+  for (int i = 0; i < 300; ++i) {
+    along.row(i) = random.point(-1, 1);
+    along(i, i % 3) = -0.0;
+    if (i % 2 == 0) along(i, (i + 1) % 3) = -0.0;
+  }
+  for (const Quality quality : {Quality::low, Quality::medium, Quality::high}) {
+    const Bvh tree(mesh.vertices, mesh.faces, Volume::box, quality);
+    const auto hits = tree.raycast(from, along);
+    // Adding 0 turns -0 into 0 and changes nothing else.
+    const auto plain = tree.raycast(from, along.array() + 0.0);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      EXPECT_GE(hits[i].face, 0);
+      EXPECT_EQ(hits[i].face, plain[i].face);
+      EXPECT_EQ(hits[i].distance, plain[i].distance);
+    }
+  }
+}
+
 TEST(MeshIndex, GivesTheClosedFormsOfASquare) {
   // Two triangles of the unit square z = 0.
   TriangleMesh mesh;
