@@ -64,13 +64,13 @@ def boxes_of_no_size() -> float:
     faces = np.concatenate([faces, [[points, points + 1, points + 2]]])
     lower = np.concatenate([vertices, vertices - [0, 0, 0.25]])
     upper = np.concatenate([vertices, vertices])
-    starts, ends = vertices + [0, 0, 1.0], vertices - [0, 0, 1.0]
+    up = np.array([0, 0, 1.0])
+    starts, ends = vertices + up, vertices - up
     judge, wrong = broad.AllFaces(vertices, faces), 0
     for index in [*(Bvh(vertices, faces, v, q) for v, q in TREES), HashGrid(vertices, faces)]:
-        for mine, true in zip(index.overlaps(lower, upper), judge.overlaps(lower, upper), strict=True):
-            wrong += not np.array_equal(mine, true)
-        for mine, true in zip(index.segments(starts, ends), judge.segments(starts, ends), strict=True):
-            wrong += not np.array_equal(mine, true)
+        mine = (*index.overlaps(lower, upper), *index.segments(starts, ends))
+        true = (*judge.overlaps(lower, upper), *judge.segments(starts, ends))
+        wrong += sum(not np.array_equal(m, t) for m, t in zip(mine, true, strict=True))
     return wrong
 
 
@@ -82,7 +82,9 @@ def boxes_of_no_size() -> float:
 )
 def sizes_twelve_decades_apart() -> float:
     rng = np.random.default_rng(46)
-    parts = [box_mesh([size] * 3, rng.uniform(-2, 2, 3) * size) for size in 10.0 ** np.arange(-6, 7)]
+    parts = [
+        box_mesh([size] * 3, rng.uniform(-2, 2, 3) * size) for size in 10.0 ** np.arange(-6, 7)
+    ]
     vertices = np.concatenate([p for p, _ in parts])
     faces = np.concatenate([f + 8 * i for i, (_, f) in enumerate(parts)])
     origins = rng.normal(size=(600, 3)) * 10.0 ** rng.uniform(-6, 6, (600, 1))

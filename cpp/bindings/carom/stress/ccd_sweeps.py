@@ -51,7 +51,7 @@ def rod_sweeps_past_a_post(max_intervals: int = 4096) -> float:
 
 
 @cases.case(
-    "half a turn and ten turns in one step: straight corner paths go through the centre, or nowhere",
+    "half a turn and ten turns in one step: straight corner paths cross the centre, or nothing",
     "wrong answers on 24 posts inside and outside the swept ring",
     0,
     "answers",
@@ -146,7 +146,11 @@ def touching_and_leaving() -> float:
     still = ccd.SweptBody(cube, faces)
     for i in range(20):
         leaving = ccd.SweptBody(
-            cube, faces, position=[0.1, 0, 0], displacement=[0.01 * i, 0, 0], rotation=[0.1 * i, 0, 0]
+            cube,
+            faces,
+            position=[0.1, 0, 0],
+            displacement=[0.01 * i, 0, 0],
+            rotation=[0.1 * i, 0, 0],
         )
         result = ccd.sweep(leaving, still)
         wrong += result.status != CONTACT or result.time != 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mass properties in rational arithmetic: every double is an exact fraction, no rounding follows."""
+"""Mass properties in rational arithmetic: every double is a fraction, and no rounding follows."""
 
 from __future__ import annotations
 
@@ -34,7 +34,9 @@ def of_mesh(vertices: ArrayLike, faces: Iterable[Iterable[int]]) -> ExactMass:
     second = [[Fraction(0)] * 3 for _ in range(3)]
     for face in faces:
         a, b, c = (points[int(k)] for k in face)
-        cross = [b[(i + 1) % 3] * c[(i + 2) % 3] - b[(i + 2) % 3] * c[(i + 1) % 3] for i in range(3)]
+        cross = [
+            b[(i + 1) % 3] * c[(i + 2) % 3] - b[(i + 2) % 3] * c[(i + 1) % 3] for i in range(3)
+        ]
         six_volumes = sum(a[i] * cross[i] for i in range(3))
         mass += six_volumes / 6
         total = [a[i] + b[i] + c[i] for i in range(3)]
@@ -71,6 +73,4 @@ def inertia_error(found: ArrayLike, exact: ExactMass) -> float:
 def moments_error(found: ArrayLike, exact: ExactMass) -> float:
     """Largest relative error of a diagonal entry: for bodies whose axes are the frame's."""
     found = np.asarray(found, float)
-    return float(
-        max(abs(Fraction(float(found[i, i])) / exact.inertia[i][i] - 1) for i in range(3))
-    )
+    return float(max(abs(Fraction(float(found[i, i])) / exact.inertia[i][i] - 1) for i in range(3)))

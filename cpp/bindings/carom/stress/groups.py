@@ -9,12 +9,24 @@ from functools import cache
 from carom.stress.case import Case
 
 GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
-    "rotation": ("free spin at its unstable, fast, thin and degenerate ends", ("rotation_drift", "rotation_fast", "rotation_exact")),
-    "inertia": ("points, needles, plates, cavities, broken meshes", ("inertia_shapes", "inertia_meshes")),
+    "rotation": (
+        "free spin at its unstable, fast, thin and degenerate ends",
+        ("rotation_drift", "rotation_fast", "rotation_exact"),
+    ),
+    "inertia": (
+        "points, needles, plates, cavities, broken meshes",
+        ("inertia_shapes", "inertia_meshes"),
+    ),
     "time": ("steps, clocks and stiff forces", ("time_steps", "time_stiff")),
-    "ccd": ("grazing, coplanar, scaled and spinning contacts in time", ("ccd_roots", "ccd_queries", "ccd_sweeps", "broad_trees")),
-    "contact": ("stacks, mass ratios, slopes, wedges, bounces", ("contact_rest", "contact_friction", "contact_bounce", "contact_odd")),
-    "roundoff": ("far from the origin, denormal, signed zero, repeated bits", ("roundoff_cases",)),
+    "ccd": (
+        "grazing, coplanar, scaled and spinning contacts in time",
+        ("ccd_roots", "ccd_queries", "ccd_sweeps", "broad_trees"),
+    ),
+    "contact": (
+        "stacks, mass ratios, slopes, wedges, bounces",
+        ("contact_rest", "contact_friction", "contact_bounce", "contact_odd"),
+    ),
+    "roundoff": ("far from the origin, denormal, signed zero, repeated bits", ("roundoff_bits",)),
     "input": ("what cannot be used is refused and changes nothing", ("input_refused", "input_odd")),
 }
 """Name of each group: what it is about, and its modules in this package."""

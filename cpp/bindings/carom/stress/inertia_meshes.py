@@ -119,7 +119,7 @@ def inside_out_mesh() -> float:
     "relative error of mass and inertia against rational arithmetic, worse of the two",
     1e-14,
     "1",
-    note="an inner skin wound outward is a second solid inside the first, and warned of; inf if not",
+    note="an inner skin wound outward is a second solid in the first, and warned of; inf if not",
 )
 def cavity_is_not_mass() -> float:
     outer, faces = box_mesh((2.0, 3.0, 4.0))

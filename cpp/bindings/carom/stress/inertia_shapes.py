@@ -86,9 +86,7 @@ def mass_ratio_of_a_trillion(combine=MassProperties.combined) -> float:
     positions = np.array([[0.1, -0.2, 0.3], [7.0, 1.0, -5.0], [3.0, 3.0, 3.0]])
     masses = [1e12, 1.0, 1e-3]
     exact = of_particles(positions, masses)
-    whole = combine(
-        [MassProperties.point(p, m) for p, m in zip(positions, masses, strict=True)]
-    )
+    whole = combine([MassProperties.point(p, m) for p, m in zip(positions, masses, strict=True)])
     far = max(abs(c) for c in exact.com)
     centre = max(abs(Fraction(float(whole.com[i])) - exact.com[i]) for i in range(3)) / far
     mass = abs(Fraction(whole.mass) / exact.mass - 1)
@@ -105,7 +103,9 @@ def order_of_parts_does_not_matter(combine=MassProperties.combined) -> float:
     rng = np.random.default_rng(11)
     parts = [
         MassProperties.sphere(0.1, mass=float(m)).transformed(np.eye(3), p)
-        for p, m in zip(rng.uniform(-5, 5, (10_000, 3)), 10 ** rng.uniform(-6, 6, 10_000), strict=True)
+        for p, m in zip(
+            rng.uniform(-5, 5, (10_000, 3)), 10 ** rng.uniform(-6, 6, 10_000), strict=True
+        )
     ]
     forth, back = combine(parts), combine(parts[::-1])
     return float(np.abs(forth.inertia - back.inertia).max() / np.abs(forth.inertia).max())

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -25,7 +26,9 @@ cases = Group("time")
 def _swing(dt: float, seconds: float = 1.0) -> float:
     """rad of error of a ball on a torsion spring, 3 rad/s at the start: sin(w t) in closed form."""
     scene = Scene()
-    scene.add(Sphere(0.1), name="ball", mass_properties=top((1, 1, 1)), angular_velocity=[0, 0, 3.0])
+    scene.add(
+        Sphere(0.1), name="ball", mass_properties=top((1, 1, 1)), angular_velocity=[0, 0, 3.0]
+    )
     scene.effects.append(TorsionSpring(0, 25.0))
     simulation = Simulation(scene, dt=dt)
     simulation.advance(seconds)
@@ -68,7 +71,7 @@ def _tumble(dt: float, method: str) -> float:
 )
 def smaller_steps_err_less(method: str = "symmetric_top") -> float:
     errors = [_tumble(dt, method) for dt in (0.1, 0.01, 1e-3, 1e-4)]
-    slopes = [math.log10(a / b) for a, b in zip(errors, errors[1:], strict=False)]
+    slopes = [math.log10(a / b) for a, b in itertools.pairwise(errors)]
     return max(abs(slope - 2) for slope in slopes)
 
 
@@ -99,8 +102,8 @@ def bad_steps_are_refused() -> float:
     "distance to the parabola",
     3e-10,
     "m",
-    note="asked was 1e-12; 10 000 additions to a distance of up to 410 m may each lose half an ulp, "
-    "2.8e-14 m, the same way every time",
+    note="asked was 1e-12; 10 000 additions to a distance of up to 410 m may each lose half an ulp,"
+    " 2.8e-14 m, the same way every time",
 )
 def parabola_is_exact() -> float:
     scene = Scene()

@@ -94,7 +94,7 @@ def gust_does_not_overshoot() -> float:
 
 
 @cases.case(
-    "rotational drag up to 1e8 per step, an asymmetric body (the lecture: stiff torque goes implicit)",
+    "rotational drag up to 1e8 per step on an asymmetric body: stiff torque must go implicit",
     "largest growth of the rotational energy from any step to the next, over the first",
     1e-15,
     "1",
@@ -103,9 +103,7 @@ def spin_drag_at_any_stiffness() -> float:
     worst = -math.inf
     for k_dt in STIFFNESS:
         scene = Scene()
-        scene.add(
-            Sphere(0.1), mass_properties=top((1, 2, 2.5)), angular_velocity=[3.0, 2.0, 1.0]
-        )
+        scene.add(Sphere(0.1), mass_properties=top((1, 2, 2.5)), angular_velocity=[3.0, 2.0, 1.0])
         scene.effects.append(LinearDrag(0.0, angular_coefficient=k_dt / 0.01))
         simulation = Simulation(scene, dt=0.01)
         first = last = simulation.energy().kinetic
