@@ -100,7 +100,9 @@ def test_bodies_are_as_large_as_they_say(kind):
         mover = make(kind, rng, 0.2)
         scene = Scene()
         scene.add(mover.shape, static=kind != "particles", mass=1)
-        distance, _, _ = Simulation(scene).closest(np.concatenate([mover.surface, [[0, 0, 0]]]), 10.0)
+        distance, _, _ = Simulation(scene).closest(
+            np.concatenate([mover.surface, [[0, 0, 0]]]), 10.0
+        )
         assert distance[-1] <= -mover.inner * (1 - 1e-6)
         # a point of a box's or particle's own grid may lie inside; none may lie outside
         assert distance[:-1].max() <= 1e-6

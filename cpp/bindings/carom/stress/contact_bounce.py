@@ -9,7 +9,7 @@ import numpy as np
 
 from carom import Box, Cylinder, Mesh, Scene, Simulation, Sphere
 from carom.stress.case import Group
-from carom.stress.contact_rest import G, world
+from carom.stress.grounds import G, world
 from carom.stress.motion import about
 from carom.stress.solids import grid_mesh
 

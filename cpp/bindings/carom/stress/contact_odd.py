@@ -9,7 +9,7 @@ import numpy as np
 
 from carom import Box, Scene, Simulation, Sphere
 from carom.stress.case import Group
-from carom.stress.contact_rest import tower, world
+from carom.stress.grounds import tower, world
 
 cases = Group("contact")
 

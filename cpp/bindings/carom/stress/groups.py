@@ -24,10 +24,23 @@ GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
     ),
     "contact": (
         "stacks, mass ratios, slopes, wedges, bounces",
-        ("contact_rest", "contact_friction", "contact_bounce", "contact_odd"),
+        (
+            "contact_towers",
+            "contact_walls",
+            "contact_slopes",
+            "contact_slip",
+            "contact_bounce",
+            "contact_odd",
+        ),
     ),
-    "roundoff": ("far from the origin, denormal, signed zero, repeated bits", ("roundoff_bits",)),
-    "input": ("what cannot be used is refused and changes nothing", ("input_refused", "input_odd")),
+    "roundoff": (
+        "far from the origin, denormal, signed zero, repeated bits",
+        ("roundoff_sizes", "roundoff_bits"),
+    ),
+    "input": (
+        "what cannot be used is refused and changes nothing",
+        ("input_refused", "input_materials", "input_odd"),
+    ),
 }
 """Name of each group: what it is about, and its modules in this package."""
 

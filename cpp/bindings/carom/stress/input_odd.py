@@ -22,7 +22,7 @@ from carom import (
     mend_mesh,
 )
 from carom.stress.case import Group
-from carom.stress.contact_rest import world
+from carom.stress.grounds import world
 from carom.stress.solids import ball_mesh, box_mesh, grid_mesh
 
 cases = Group("input")

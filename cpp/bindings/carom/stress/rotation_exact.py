@@ -1,98 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Spin against 60-digit arithmetic, where double-precision methods are near their end.
-
-The constants are printed by `python -m carom.studies.top_reference` (needs mpmath).
-"""
+"""Spin against 60-digit arithmetic, where double-precision methods are near their end."""
 
 from __future__ import annotations
-
-from typing import NamedTuple
 
 import numpy as np
 
 from carom import MassProperties, Scene, Simulation, Sphere, UniformGravity, integrate_free
 from carom.stress.case import Group
+from carom.stress.flights import (
+    DISK,
+    NEAR_SEPARATRIX,
+    NEARLY_PROLATE,
+    NEEDLE,
+    TWO_FLIPS,
+    UNSTABLE,
+    Flight,
+)
 from carom.stress.motion import AT_REST, angle, spin_energy, spin_momentum, top
 
 cases = Group("rotation")
-
-
-class Flight(NamedTuple):
-    moments: tuple[float, float, float]
-    """kg m^2"""
-    w: tuple[float, float, float]
-    """rad/s"""
-    seconds: float
-    truth: tuple[float, float, float, float]
-    """x y z w after the flight from 0 0 0 1"""
-
-
-UNSTABLE = Flight(
-    (1, 2, 3),
-    (1e-06, 2, -1e-06),
-    40,
-    (
-        -0.12977793781541107879,
-        0.73557369443374233417,
-        -0.61952779770540370328,
-        0.2414007762700177045,
-    ),
-)
-TWO_FLIPS = Flight(
-    (1, 2, 2.5),
-    (2.0**-20, 1, 2.0**-20),
-    60,
-    (
-        0.2625505564968564506,
-        -0.000063172288120286640479,
-        -0.9649182355003671812,
-        9.5556759451361274175e-6,
-    ),
-)
-NEAR_SEPARATRIX = Flight(
-    (1, 2, 2.5),
-    (1, 2.0**-8, 0.7302967433402214),
-    20,
-    (
-        0.87251301251311106503,
-        0.18243449070425153895,
-        0.020498075446231627758,
-        0.45278971774961569784,
-    ),
-)
-NEARLY_PROLATE = Flight(
-    (1, 1 + 2.0**-30, 1.5),
-    (1, 0.5, 0.25),
-    20,
-    (
-        0.094338073963482403474,
-        -0.65589542204808992033,
-        -0.74879131804138596638,
-        0.014597436866193107278,
-    ),
-)
-NEEDLE = Flight(
-    (2.0**-10, 1, 1 + 2.0**-11),
-    (50, 0.25, 0.125),
-    4,
-    (
-        -0.42089806216780396774,
-        0.24381373634211484814,
-        0.46994093677555171651,
-        0.73658346382253385198,
-    ),
-)
-DISK = Flight(
-    (0.5, 0.50025, 1),
-    (0.5, 0.1, 200),
-    1,
-    (
-        -0.0010600324693581832098,
-        0.0004277566883240014133,
-        -0.50622489588069576086,
-        0.86240074683754665483,
-    ),
-)
 
 
 def error_of(flight: Flight, method: str, steps: int = 1, tolerance: float | None = None) -> float:
@@ -175,6 +101,7 @@ def almost_round_disk(method: str = "symmetric_top") -> float:
 
 
 BRICK = MassProperties.box([0.1, 0.4, 0.9], mass=10)
+
 BRICK_W = (0.1, 5.0, 0.1)
 
 
