@@ -20,7 +20,7 @@ GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
     "time": ("steps, clocks and stiff forces", ("time_steps", "time_stiff")),
     "ccd": (
         "grazing, coplanar, scaled and spinning contacts in time",
-        ("ccd_roots", "ccd_queries", "ccd_sweeps", "broad_trees"),
+        ("ccd_roots", "ccd_queries", "ccd_sweeps", "ccd_bodies", "broad_trees"),
     ),
     "contact": (
         "stacks, mass ratios, slopes, wedges, bounces",
