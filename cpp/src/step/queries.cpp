@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "carom/numerics/invalid_input.hpp"
 
@@ -25,6 +26,11 @@ Vector3d unit(const Vector3d& direction, const Vector3d& origin) {
 bool swept_box_meets(const Aabb& start, const Vector3d& way, const Aabb& box) {
   return (start.lower.array() + way.array().min(0.0) <= box.upper.array()).all() &&
          (box.lower.array() <= start.upper.array() + way.array().max(0.0)).all();
+}
+
+/// @throws InvalidInput for NaN and below 0; infinity is the default of every query
+void require_reach(double value, const char* field) {
+  if (value != std::numeric_limits<double>::infinity()) require_non_negative(value, field, "m");
 }
 
 /// A ray of no end reaches no farther than twice the way across all finite boxes.
@@ -50,7 +56,7 @@ SceneQueries::SceneQueries(const Simulation& simulation) : simulation_(simulatio
 BodyHit SceneQueries::ray(const Vector3d& origin, const Vector3d& direction,
                           double max_distance) const {
   const Vector3d d = unit(direction, origin);
-  require_non_negative(max_distance, "max_distance", "m");
+  require_reach(max_distance, "max_distance");
   BodyHit best;
   for (int i = 0; i < static_cast<int>(poses_.size()); ++i) {
     const double limit = std::min(max_distance, best.cast.distance);
@@ -65,7 +71,7 @@ BodyHit SceneQueries::shape(const Shape& moving, const Pose& start, const Vector
                             double max_distance) const {
   require_valid(moving, "shape");
   const Vector3d d = unit(direction, start.position);
-  require_non_negative(max_distance, "max_distance", "m");
+  require_reach(max_distance, "max_distance");
   max_distance = finite_reach(max_distance, start.position, boxes_);
   const Aabb box = bounds(moving, start);
   BodyHit best;
@@ -93,7 +99,7 @@ std::vector<int> SceneQueries::overlaps(const Shape& shape, const Pose& pose) co
 
 BodyPoint SceneQueries::closest(const Vector3d& point, double reach) const {
   for (int i = 0; i < 3; ++i) require_finite(point[i], "point", "m");
-  require_non_negative(reach, "reach", "m");
+  require_reach(reach, "reach");
   reach = finite_reach(reach, point, boxes_);
   BodyPoint best;
   const Shape dot = Sphere{0};

@@ -2,6 +2,7 @@
 #include "carom/step/queries.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -85,6 +86,22 @@ TEST(Overlaps, NameTheBodiesTouched) {
   EXPECT_EQ(queries.overlaps(Box{{2.2, 0.1, 0.1}}, at(1, 0, 0)), (std::vector<int>{0, 1}));
   EXPECT_EQ(queries.overlaps(Sphere{0.1}, at(20, 0, -2.05)), (std::vector<int>{7}));
   EXPECT_TRUE(queries.overlaps(Sphere{0.1}, at(20, 0, 3)).empty());
+}
+
+TEST(Queries, ReachAnyDistanceUnlessTold) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const Simulation simulation(row_of_shapes());
+  const SceneQueries queries(simulation);
+  // The first body is a ball of 0.5 m about the origin.
+  EXPECT_NEAR(queries.ray({0, 1e6, 0}, {0, -1, 0}, inf).cast.distance, 1e6 - 0.5, 1e-9);
+  EXPECT_NEAR(queries.shape(Sphere{0.1}, at(0, 1e3, 0), {0, -1, 0}, inf).cast.distance, 1e3 - 0.6,
+              1e-9);
+  EXPECT_NEAR(queries.closest({0, 1e6, 0}, inf).distance, 1e6 - 0.5, 1e-9);
+  for (const double bad : {-1.0, -inf, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW((void)queries.ray({0, 5, 0}, {0, -1, 0}, bad), InvalidInput);
+    EXPECT_THROW((void)queries.shape(Sphere{0.1}, at(0, 5, 0), {0, -1, 0}, bad), InvalidInput);
+    EXPECT_THROW((void)queries.closest({0, 5, 0}, bad), InvalidInput);
+  }
 }
 
 TEST(ClosestPoints, GiveDistanceAndBody) {
