@@ -3,13 +3,15 @@
 
 import functools
 import json
+import math
 
 import pytest
 
 from carom import MassProperties
 from carom.cli import main
 from carom.commands import stress
-from carom.stress import GROUPS, cases_of
+from carom.stress import GROUPS, cases_of, run_case
+from carom.stress.case import largest
 
 # For each group a case and what breaks it: a worse method, a setting past the bound, a wrong body.
 BROKEN = {
@@ -72,6 +74,13 @@ def test_a_case_that_breaks_is_a_failure_with_its_error_and_the_rest_runs(monkey
     out = capsys.readouterr().out
     assert "2 cases, 1 failed" in out
     assert "ZeroDivisionError: division by zero" in out
+
+
+def test_nan_is_never_a_pass():
+    assert largest(1.0, math.nan) == largest([math.nan, 1.0]) == largest(0, math.inf) == math.inf
+    assert largest(1.0, 3.0, 2.0) == largest(x for x in (3.0, 1.0)) == 3.0
+    for value in (math.nan, math.inf, -math.inf):
+        assert not run_case(cases_of("inertia")[0]._replace(run=lambda v=value: v)).passed
 
 
 def test_list_runs_nothing_and_says_why_each_is_hard(monkeypatch, capsys):

@@ -8,7 +8,7 @@ import itertools
 import numpy as np
 
 from carom import Bvh, HashGrid, broad
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.solids import ball_mesh, box_mesh, grid_mesh
 
 cases = Group("ccd")
@@ -30,7 +30,7 @@ def tree_of_identical_triangles() -> float:
         distance, face = tree.raycast([[0.2, 0.2, 1.0]], [[0, 0, -1.0]])
         assert distance[0] == 1.0
         assert face[0] == 0
-        deepest = max(deepest, tree.depth)
+        deepest = largest(deepest, tree.depth)
     return deepest
 
 
@@ -48,7 +48,7 @@ def rays_do_not_leak() -> float:
     origins = np.tile([0.1, -0.2, 0.05], (len(aims), 1))
     indices = [Bvh(vertices, faces, volume=v, quality=q) for v, q in TREES]
     indices.append(HashGrid(vertices, faces))
-    return max(int((~index.any_hit(origins, aims - origins)).sum()) for index in indices)
+    return largest(int((~index.any_hit(origins, aims - origins)).sum()) for index in indices)
 
 
 @cases.case(

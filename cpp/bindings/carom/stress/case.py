@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 
 class Case(NamedTuple):
@@ -60,6 +60,12 @@ class Group(list[Case]):
             return run
 
         return declare
+
+
+def largest(*values: Any) -> float:
+    """Of numbers or of one iterable of them; infinite where any is NaN, which max would lose."""
+    found = list(values[0]) if len(values) == 1 else values
+    return math.inf if any(value != value for value in found) else max(found)
 
 
 def run_case(case: Case, long: bool = False) -> Outcome:

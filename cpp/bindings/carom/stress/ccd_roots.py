@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from carom import ccd
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.studies.ccd_exact import roots_in_unit_interval
 
 cases = Group("ccd")
@@ -36,7 +36,7 @@ def root_errors(polynomials: np.ndarray) -> float:
             return math.inf
         for root, true in zip(roots, exact, strict=True):
             low, high = true.narrower_than(80)
-            worst = max(worst, abs(float(Fraction(float(root)) - (low + high) / 2)))
+            worst = largest(worst, abs(float(Fraction(float(root)) - (low + high) / 2)))
     return worst
 
 
@@ -119,7 +119,7 @@ def vanishing_leading_coefficient() -> float:
 )
 def coefficients_at_the_ends_of_the_range() -> float:
     base = np.array([_from_roots(0.25, 0.5, 0.75), _from_roots(0.5, 0.5, 0.25)])
-    return max(root_errors(np.ldexp(base, k)) for k in (600, -600, 1015, -1000))
+    return largest(root_errors(np.ldexp(base, k)) for k in (600, -600, 1015, -1000))
 
 
 @cases.case(

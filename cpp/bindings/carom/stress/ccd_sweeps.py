@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from carom import ccd
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.solids import box_mesh, grid_mesh
 
 cases = Group("ccd")
@@ -30,7 +30,7 @@ def _time_error(result: ccd.SweepResult, exact: float, slack: float) -> float:
     """0 where contact is found no later than it is and no earlier than by `slack`; else how far."""
     if result.status != CONTACT:
         return math.inf
-    return max(result.time - exact, exact - result.time - slack, 0.0)
+    return largest(result.time - exact, exact - result.time - slack, 0.0)
 
 
 @cases.case(
@@ -46,7 +46,7 @@ def rod_sweeps_past_a_post(max_intervals: int = 4096) -> float:
         result = ccd.sweep(_rod(turn), _post(angle, radius), max_intervals=max_intervals)
         # within 1e-6 m is a contact: that far before, by the angle whose sine is 1e-6 / radius
         early = math.asin(1e-6 / radius) / turn
-        worst = max(worst, _time_error(result, angle / turn, early + 1e-12))
+        worst = largest(worst, _time_error(result, angle / turn, early + 1e-12))
     return worst
 
 
@@ -93,7 +93,7 @@ def bullet_and_plate() -> float:
         result = ccd.sweep(bullet, plate)
         # a corner is between half an edge and half a diagonal ahead of the centre
         first, last = (600 - reach - 0.5e-4 - 1e-6) / 1200, exact
-        worst = max(worst, first - result.time, result.time - last)
+        worst = largest(worst, first - result.time, result.time - last)
     return worst
 
 

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from carom import Box, Cylinder, Mesh, Scene, Simulation, Sphere
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.grounds import G, world
 from carom.stress.motion import about
 from carom.stress.solids import grid_mesh
@@ -33,7 +33,7 @@ def elastic_ball_for_a_thousand_bounces(dt: float = 1 / 60, scale: int = 1) -> f
         simulation.advance(1.0)
         energy = simulation.energy()
         gain = energy.kinetic + energy.potential - start.kinetic - start.potential
-        worst = max(worst, abs(gain))
+        worst = largest(worst, abs(gain))
     # over what the ball can fall, not over its height above z = 0
     return worst / (G * 0.1 * 1000 * 4 / 3 * math.pi * 0.5**3)
 
@@ -113,7 +113,7 @@ def oblique_hit() -> float:
         normal = (1 + e) * un / 2
         tangent = min(ut / 7, mu * normal)
         exact = [[-normal, tangent, 0], [-un + normal, ut - tangent, 0]]
-        worst = max(worst, float(np.abs(simulation.twists()[:, :3] - exact).max()))
+        worst = largest(worst, float(np.abs(simulation.twists()[:, :3] - exact).max()))
     return worst
 
 
@@ -140,7 +140,7 @@ def spinning_coin() -> float:
         energy = simulation.energy()
         if not np.isfinite(simulation.poses()).all():
             return math.inf
-        worst = max(worst, energy.kinetic + energy.potential - last)
+        worst = largest(worst, energy.kinetic + energy.potential - last)
         last = min(last, energy.kinetic + energy.potential)
     return worst
 
@@ -186,5 +186,5 @@ def no_bump_at_inner_edges() -> float:
     worst = 0.0
     for _ in range(480):
         simulation.step()
-        worst = max(worst, abs(simulation.twists()[1, 2]))
+        worst = largest(worst, abs(simulation.twists()[1, 2]))
     return worst

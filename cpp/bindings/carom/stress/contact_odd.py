@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from carom import Box, Scene, Simulation, Sphere
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.grounds import tower, world
 
 cases = Group("contact")
@@ -29,7 +29,9 @@ def deep_overlap_leaves_slowly(depth: float = 0.5) -> float:
         before = simulation.centres()[1][2]
         simulation.step()
         # by position as well: a push that is no velocity still moves
-        worst = max(worst, simulation.twists()[1, 2], (simulation.centres()[1][2] - before) * 60)
+        worst = largest(
+            worst, simulation.twists()[1, 2], (simulation.centres()[1][2] - before) * 60
+        )
     out = abs(simulation.centres()[1][2] - 1.0) < 1e-3
     return float(worst) if out else math.inf
 
@@ -118,7 +120,7 @@ def pinched_pea() -> float:
     for _ in range(480):
         simulation.step()
         energy = simulation.energy()
-        worst = max(worst, energy.kinetic + energy.potential - base)
+        worst = largest(worst, energy.kinetic + energy.potential - base)
     return worst if np.isfinite(simulation.poses()).all() else math.inf
 
 
@@ -143,5 +145,5 @@ def boxes_shot_into_a_corner() -> float:
     for _ in range(120):
         simulation.step()
         energy = simulation.energy()
-        worst = max(worst, energy.kinetic + energy.potential - base)
+        worst = largest(worst, energy.kinetic + energy.potential - base)
     return worst if np.isfinite(simulation.poses()).all() else math.inf

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from carom import Box, ConvexHull, Plane, Scene, Simulation, Sphere
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.grounds import G, world
 from carom.stress.motion import about
 
@@ -45,7 +45,7 @@ def sliding_becomes_rolling() -> float:
         scene.add(Sphere(0.1), position=[0, 0, 0.1], velocity=[3, 0, 0], friction=friction)
         simulation = Simulation(scene, dt=1 / 240)
         simulation.advance(2 * 3 / (7 * friction * G) + 0.2)
-        worst = max(worst, abs(simulation.twists()[1, 0] / (3 * 5 / 7) - 1))
+        worst = largest(worst, abs(simulation.twists()[1, 0] / (3 * 5 / 7) - 1))
     return worst
 
 
@@ -157,7 +157,7 @@ def painleve_rod() -> float:
         for _ in range(20):
             simulation.advance(0.05)
             energy = simulation.energy()
-            worst = max(worst, energy.kinetic + energy.potential - base)
+            worst = largest(worst, energy.kinetic + energy.potential - base)
         if not np.isfinite(simulation.poses()).all():
             return math.inf
     return worst

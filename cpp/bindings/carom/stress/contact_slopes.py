@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from carom import Box, Plane, Scene, Simulation, Sphere, UniformGravity
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.grounds import G
 
 cases = Group("contact")
@@ -78,7 +78,7 @@ def ball_rolls_or_slides() -> float:
         simulation.advance(1.0)
         found = simulation.twists()[1, 0] - v
         exact = 5 / 7 * math.sin(ANGLE) if factor > 1 else math.sin(ANGLE) * (1 - 2 / 7 * factor)
-        worst = max(worst, abs(found / (G * exact) - 1))
+        worst = largest(worst, abs(found / (G * exact) - 1))
     return worst
 
 

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from carom import Box, Mesh, Simulation
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.grounds import drift_and_overlap, tower, world
 from carom.stress.solids import grid_mesh
 
@@ -23,7 +23,7 @@ cases = Group("contact")
     has_long=True,
 )
 def stack_of_30(solver: str = "automatic", scale: int = 1) -> float:
-    return max(drift_and_overlap(tower([1000.0] * 30), 10.0 * scale, contact_solver=solver))
+    return largest(drift_and_overlap(tower([1000.0] * 30), 10.0 * scale, contact_solver=solver))
 
 
 @cases.case(
@@ -33,7 +33,7 @@ def stack_of_30(solver: str = "automatic", scale: int = 1) -> float:
     "m",
 )
 def heavy_on_light(solver: str = "automatic") -> float:
-    return max(drift_and_overlap(tower([1.0] * 10 + [1e6]), 10.0, contact_solver=solver))
+    return largest(drift_and_overlap(tower([1.0] * 10 + [1e6]), 10.0, contact_solver=solver))
 
 
 @cases.case(
@@ -43,7 +43,7 @@ def heavy_on_light(solver: str = "automatic") -> float:
     "m",
 )
 def light_on_heavy(solver: str = "automatic") -> float:
-    return max(drift_and_overlap(tower([1e6] + [1.0] * 10), 10.0, contact_solver=solver))
+    return largest(drift_and_overlap(tower([1e6] + [1.0] * 10), 10.0, contact_solver=solver))
 
 
 @cases.case(
@@ -53,7 +53,7 @@ def light_on_heavy(solver: str = "automatic") -> float:
     "m",
 )
 def heavy_light_heavy(solver: str = "automatic") -> float:
-    return max(drift_and_overlap(tower([1e3, 1e-3, 1e3]), 10.0, contact_solver=solver))
+    return largest(drift_and_overlap(tower([1e3, 1e-3, 1e3]), 10.0, contact_solver=solver))
 
 
 @cases.case(
@@ -67,7 +67,7 @@ def press_on_two_cubes() -> float:
     for x in (-0.2, 0.2):
         scene.add(Box([0.1] * 3), mass=1e-3, position=[x, 0, 0.05], friction=0.9)
     scene.add(Box([0.6, 0.2, 0.2]), mass=1e3, position=[0, 0, 0.2], friction=0.9)
-    return max(drift_and_overlap(scene, 5.0, dt=1e-3))
+    return largest(drift_and_overlap(scene, 5.0, dt=1e-3))
 
 
 @cases.case(
@@ -104,7 +104,7 @@ def rest_gains_no_energy() -> float:
     for _ in range(600):
         simulation.advance(0.1)
         energy = simulation.energy()
-        worst = max(worst, energy.kinetic + energy.potential - base)
+        worst = largest(worst, energy.kinetic + energy.potential - base)
     return worst
 
 

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from carom import Box, ConvexHull, Plane, Simulation, Sphere
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.grounds import G, world
 from carom.stress.motion import about
 
@@ -32,7 +32,7 @@ def ball_in_a_corner(solver: str = "automatic") -> float:
     start, worst = np.array(simulation.centres()[3]), 0.0
     for _ in range(600):
         simulation.step()
-        worst = max(worst, float(np.linalg.norm(simulation.centres()[3] - start)))
+        worst = largest(worst, float(np.linalg.norm(simulation.centres()[3] - start)))
     return worst
 
 
@@ -101,7 +101,7 @@ def thin_wedge_in_a_slot(dt: float = 1 / 240) -> float:
     for _ in range(round(5 / dt)):
         simulation.step()
         impulse = simulation.contacts()["impulse"]
-        most = max(most, float(np.linalg.norm(impulse.reshape(len(impulse), -1), axis=1).sum()))
+        most = largest(most, float(np.linalg.norm(impulse.reshape(len(impulse), -1), axis=1).sum()))
     if not np.isfinite(simulation.poses()).all() or most == 0:
         return math.inf
     return most / ((math.sqrt(2 * G * 0.05) + G * dt) / math.sin(half))

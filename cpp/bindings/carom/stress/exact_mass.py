@@ -10,6 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from carom.stress.case import largest
+
 
 class ExactMass(NamedTuple):
     mass: Fraction
@@ -63,14 +65,16 @@ def of_particles(positions: ArrayLike, masses: ArrayLike) -> ExactMass:
 def inertia_error(found: ArrayLike, exact: ExactMass) -> float:
     """Largest error of an entry, over the largest exact entry."""
     found = np.asarray(found, float)
-    scale = max(abs(exact.inertia[i][i]) for i in range(3))
+    scale = largest(abs(exact.inertia[i][i]) for i in range(3))
     errors = (
         abs(Fraction(float(found[i, j])) - exact.inertia[i][j]) for i in range(3) for j in range(3)
     )
-    return float(max(errors) / scale)
+    return float(largest(errors) / scale)
 
 
 def moments_error(found: ArrayLike, exact: ExactMass) -> float:
     """Largest relative error of a diagonal entry: for bodies whose axes are the frame's."""
     found = np.asarray(found, float)
-    return float(max(abs(Fraction(float(found[i, i])) / exact.inertia[i][i] - 1) for i in range(3)))
+    return float(
+        largest(abs(Fraction(float(found[i, i])) / exact.inertia[i][i] - 1) for i in range(3))
+    )

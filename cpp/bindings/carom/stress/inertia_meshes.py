@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from carom import InvalidInput, MassProperties, diagnose_mesh
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.exact_mass import inertia_error, moments_error, of_mesh
 from carom.stress.motion import about, matrix
 from carom.stress.solids import ball_mesh, box_mesh
@@ -68,7 +68,7 @@ def needle_askew() -> float:
         vertices, faces = box_mesh((1.0, 1e-4, 1e-4))
         vertices = vertices @ r.T + rng.uniform(-1, 1, 3)
         body = MassProperties.mesh(vertices, faces, density=1.0)
-        worst = max(worst, inertia_error(body.inertia, of_mesh(vertices, faces)))
+        worst = largest(worst, inertia_error(body.inertia, of_mesh(vertices, faces)))
     return worst
 
 
@@ -95,7 +95,7 @@ def mesh_of_any_size() -> float:
     for size in (1e-9, 1e9):
         vertices, faces = box_mesh((1.0 * size, 2.0 * size, 3.0 * size))
         body = MassProperties.mesh(vertices, faces, density=1.0)
-        worst = max(worst, moments_error(body.inertia, of_mesh(vertices, faces)))
+        worst = largest(worst, moments_error(body.inertia, of_mesh(vertices, faces)))
     return worst
 
 
@@ -111,7 +111,7 @@ def inside_out_mesh() -> float:
     turned = MassProperties.mesh(vertices, faces[:, ::-1], density=1.0)
     if not turned.warnings or diagnose_mesh(vertices, faces[:, ::-1]).inverted != 1:
         return math.inf
-    return float(max(abs(turned.mass / 6 - 1), np.abs(turned.inertia - right.inertia).max()))
+    return float(largest(abs(turned.mass / 6 - 1), np.abs(turned.inertia - right.inertia).max()))
 
 
 @cases.case(
@@ -132,7 +132,7 @@ def cavity_is_not_mass() -> float:
     for given in (hollow, hollow[:, ::-1]):
         body = MassProperties.mesh(vertices, given, density=1.0)
         mass = abs(Fraction(body.mass) / exact.mass - 1)
-        worst = max(worst, float(mass), inertia_error(body.inertia, exact))
+        worst = largest(worst, float(mass), inertia_error(body.inertia, exact))
     return worst
 
 
@@ -169,4 +169,4 @@ def scrambled_mesh_is_mended() -> float:
     if not body.warnings:
         return math.inf
     mass = abs(Fraction(body.mass) / exact.mass - 1)
-    return max(float(mass), inertia_error(body.inertia, exact))
+    return largest(float(mass), inertia_error(body.inertia, exact))

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from carom import InvalidInput, MassProperties, Scene, Simulation, Sphere
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.exact_mass import inertia_error, of_particles
 from carom.stress.motion import AT_REST, about, lone_body, matrix, spin_energy
 
@@ -55,7 +55,7 @@ def rod_does_not_spin_along_itself() -> float:
     for _ in range(200):
         simulation.step()
         line = matrix(simulation.poses()[0, 3:]) @ along
-        worst = max(worst, abs(float(simulation.twists()[0, 3:] @ line)))
+        worst = largest(worst, abs(float(simulation.twists()[0, 3:] @ line)))
     return worst
 
 
@@ -72,7 +72,7 @@ def moments_of_a_hair(method: str = "symmetric_top") -> float:
     for _ in range(1000):
         simulation.step()
         now = spin_energy(moments, simulation.poses()[0, 3:], simulation.twists()[0, 3:])
-        worst = max(worst, abs(now / start - 1))
+        worst = largest(worst, abs(now / start - 1))
     return worst
 
 
@@ -87,10 +87,10 @@ def mass_ratio_of_a_trillion(combine=MassProperties.combined) -> float:
     masses = [1e12, 1.0, 1e-3]
     exact = of_particles(positions, masses)
     whole = combine([MassProperties.point(p, m) for p, m in zip(positions, masses, strict=True)])
-    far = max(abs(c) for c in exact.com)
-    centre = max(abs(Fraction(float(whole.com[i])) - exact.com[i]) for i in range(3)) / far
+    far = largest(abs(c) for c in exact.com)
+    centre = largest(abs(Fraction(float(whole.com[i])) - exact.com[i]) for i in range(3)) / far
     mass = abs(Fraction(whole.mass) / exact.mass - 1)
-    return max(float(centre), float(mass), inertia_error(whole.inertia, exact))
+    return largest(float(centre), float(mass), inertia_error(whole.inertia, exact))
 
 
 @cases.case(
@@ -147,8 +147,8 @@ def axes_of_a_cube() -> float:
         axis = rng.normal(size=3)
         turned = cube.transformed(matrix(about(axis / np.linalg.norm(axis), 2.0)), [0, 0, 0])
         _, axes = turned.principal()
-        worst = max(worst, float(np.abs(axes.T @ axes - np.eye(3)).max()))
-        worst = max(worst, abs(float(np.linalg.det(axes)) - 1))
+        worst = largest(worst, float(np.abs(axes.T @ axes - np.eye(3)).max()))
+        worst = largest(worst, abs(float(np.linalg.det(axes)) - 1))
     return worst
 
 
@@ -168,7 +168,7 @@ def nearly_equal_moments() -> float:
         tensor = r @ np.diag([1.0, 1 + split, 1.5]) @ r.T
         body = MassProperties(1.0, [0, 0, 0], (tensor + tensor.T) / 2)
         moments, axes = body.principal()
-        worst = max(worst, float(np.abs(axes @ np.diag(moments) @ axes.T - body.inertia).max()))
+        worst = largest(worst, float(np.abs(axes @ np.diag(moments) @ axes.T - body.inertia).max()))
     return worst / 1.5
 
 
@@ -186,5 +186,5 @@ def sampling_error_is_honest(samples: int = 4000) -> float:
         body = MassProperties.sampled(
             lambda p: (p * p).sum(1) < 1, [-1] * 3, [1] * 3, 1.0, samples, seed=seed
         )
-        worst = max(worst, abs(body.mass - 4 * math.pi / 3) / body.error.mass)
+        worst = largest(worst, abs(body.mass - 4 * math.pi / 3) / body.error.mass)
     return worst

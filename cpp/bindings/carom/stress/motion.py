@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from carom import MassProperties, Scene, Simulation, Sphere, integrate_free
+from carom.stress.case import largest
 
 AT_REST = (0.0, 0.0, 0.0, 1.0)
 U = 2.0**-53
@@ -90,8 +91,8 @@ def watch(
         q, w = integrate_free(body, q, w, part * step, part, method)
         now = spin_energy(moments, q, w)
         drift = np.linalg.norm(spin_momentum(moments, q, w) - momentum)
-        worst_energy = max(worst_energy, abs(now / energy - 1))
-        worst_momentum = max(worst_momentum, float(drift / np.linalg.norm(momentum)))
+        worst_energy = largest(worst_energy, abs(now / energy - 1))
+        worst_momentum = largest(worst_momentum, float(drift / np.linalg.norm(momentum)))
     return worst_energy, worst_momentum
 
 

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from carom import METHODS, integrate_free
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.motion import (
     AT_REST,
     U,
@@ -61,7 +61,7 @@ def balanced_on_middle_axis(method: str = "symmetric_top") -> float:
     for _ in range(100):
         q, w = integrate_free(top(TOP), q, w, math.pi / 10, 10, method)
         axis = matrix(q)[:, 1]
-        worst = max(worst, math.hypot(axis[0], axis[2]))
+        worst = largest(worst, math.hypot(axis[0], axis[2]))
     return worst
 
 
@@ -80,7 +80,7 @@ def balanced_askew(method: str = "symmetric_top") -> float:
     worst = 0.0
     for _ in range(30):
         q, w = integrate_free(top(TOP), q, w, math.pi / 10, 10, method)
-        worst = max(worst, float(np.linalg.norm(np.cross(matrix(q)[:, 1], start))))
+        worst = largest(worst, float(np.linalg.norm(np.cross(matrix(q)[:, 1], start))))
     return worst
 
 
@@ -115,7 +115,7 @@ def naming_error(method: str) -> float:
         moments = np.abs(p) @ np.array(TOP)
         q, _ = integrate_free(top(moments), product(TILTED, back), w, 10.0, 1000, method)
         ends.append(product(q, [-back[0], -back[1], -back[2], back[3]]))
-    return max(angle(ends[0], q) for q in ends)
+    return largest(angle(ends[0], q) for q in ends)
 
 
 @cases.case(
@@ -125,7 +125,7 @@ def naming_error(method: str) -> float:
     "rad",
 )
 def axis_names_do_not_matter(methods: tuple[str, ...] = METHODS) -> float:
-    return max(naming_error(m) for m in methods if m != "lecture_gram_schmidt")
+    return largest(naming_error(m) for m in methods if m != "lecture_gram_schmidt")
 
 
 @cases.case(
@@ -170,7 +170,7 @@ def length_of_q_stays_one(method: str = "symmetric_top", scale: int = 1) -> floa
     q, w, worst = TILTED, np.array([1.0, 0.7, -0.4]), 0.0
     for _ in range(20):
         q, w = integrate_free(top(TOP), q, w, 5e3 * scale, 100_000 * scale, method)
-        worst = max(worst, abs(float(np.linalg.norm(q)) - 1))
+        worst = largest(worst, abs(float(np.linalg.norm(q)) - 1))
     return worst
 
 

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from carom import METHODS, integrate_free
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.motion import AT_REST, about, angle, lone_body, spin_energy, top
 
 cases = Group("rotation")
@@ -50,7 +50,7 @@ def needle_end_over_end(method: str = "symmetric_top") -> float:
     for _ in range(60):
         simulation.step()
         now = spin_energy(moments, simulation.poses()[0, 3:], simulation.twists()[0, 3:])
-        worst = max(worst, abs(now / start - 1))
+        worst = largest(worst, abs(now / start - 1))
     return worst
 
 
@@ -80,7 +80,7 @@ def fast_tumble_gets_substeps(method: str = "symmetric_top") -> float:
     for _ in range(600):
         simulation.step()
         now = spin_energy(moments, simulation.poses()[0, 3:], simulation.twists()[0, 3:])
-        worst = max(worst, abs(now / start - 1))
+        worst = largest(worst, abs(now / start - 1))
     return worst
 
 

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from carom import Box, Plane, Scene, Simulation, Sphere, UniformGravity
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.grounds import world
 
 cases = Group("roundoff")
@@ -86,7 +86,7 @@ def denormal_velocities() -> float:
         if not np.isfinite(simulation.poses()).all():
             return math.inf
         # at rest on the ground a box may sink by the solver's own residual, nothing more
-        worst = max(worst, float(np.linalg.norm((simulation.centres()[-1] - start)[:2])))
+        worst = largest(worst, float(np.linalg.norm((simulation.centres()[-1] - start)[:2])))
     return worst
 
 

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from carom import Box, InvalidInput, Plane, Scene, Simulation, Sphere, TorsionSpring, UniformGravity
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.motion import (
     AT_REST,
     angle,
@@ -44,7 +44,7 @@ def _swing(dt: float, seconds: float = 1.0) -> float:
     note="solved in closed form over each step: only rounding is left, 1e5 steps of it at 10 us",
 )
 def pendulum_at_any_step() -> float:
-    return max(_swing(dt) for dt in (0.1, 0.01, 1e-3, 1e-4, 1e-5))
+    return largest(_swing(dt) for dt in (0.1, 0.01, 1e-3, 1e-4, 1e-5))
 
 
 # asymmetric top from 0 0 0 1 at 1 1 1 rad/s for 10 s (python -m carom.studies.top_reference)
@@ -72,7 +72,7 @@ def _tumble(dt: float, method: str) -> float:
 def smaller_steps_err_less(method: str = "symmetric_top") -> float:
     errors = [_tumble(dt, method) for dt in (0.1, 0.01, 1e-3, 1e-4)]
     slopes = [math.log10(a / b) for a, b in itertools.pairwise(errors)]
-    return max(abs(slope - 2) for slope in slopes)
+    return largest(abs(slope - 2) for slope in slopes)
 
 
 @cases.case(
@@ -142,7 +142,7 @@ def steps_change_at_random(method: str = "symmetric_top") -> float:
     for dt in 10 ** rng.uniform(-3, -2, 20_000):
         simulation.step(dt)
         now = spin_energy(moments, simulation.poses()[0, 3:], simulation.twists()[0, 3:])
-        worst = max(worst, abs(now / start - 1))
+        worst = largest(worst, abs(now / start - 1))
     return worst
 
 
@@ -165,7 +165,7 @@ def spin_after_a_blow(blow: float = 300.0) -> float:
     for _ in range(60):
         simulation.step()
         now = spin_energy(moments, simulation.poses()[0, 3:], simulation.twists()[0, 3:])
-        worst = max(worst, abs(now / start - 1))
+        worst = largest(worst, abs(now / start - 1))
     return worst
 
 
@@ -185,5 +185,5 @@ def rest_at_any_step() -> float:
         simulation = Simulation(scene, dt=dt)
         for _ in range(200):
             simulation.step()
-            worst = max(worst, float(np.linalg.norm(simulation.centres()[1] - [0, 0, 0.5])))
+            worst = largest(worst, float(np.linalg.norm(simulation.centres()[1] - [0, 0, 0.5])))
     return worst

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from carom import InvalidInput, LinearDrag, Scene, Simulation, Sphere, TorsionSpring, UniformGravity
-from carom.stress.case import Group
+from carom.stress.case import Group, largest
 from carom.stress.motion import top
 
 cases = Group("time")
@@ -39,7 +39,7 @@ def drag_at_any_stiffness() -> float:
         for n in range(1, 51):
             simulation.step()
             v = simulation.twists()[0, 0]
-            worst = max(worst, abs(v - 10 * math.exp(-k_dt * n)) / 10)
+            worst = largest(worst, abs(v - 10 * math.exp(-k_dt * n)) / 10)
     return worst
 
 
@@ -56,7 +56,7 @@ def distance_under_drag() -> float:
         simulation.advance(0.5)
         k = k_dt / 0.01
         expected = -10 / k * math.expm1(-k * 0.5)
-        worst = max(worst, abs(simulation.poses()[0, 0] / expected - 1))
+        worst = largest(worst, abs(simulation.poses()[0, 0] / expected - 1))
     return worst
 
 
@@ -70,8 +70,8 @@ def terminal_speed() -> float:
     worst = 0.0
     for k_dt in STIFFNESS[1:]:
         simulation = _dragged(k_dt, gravity=9.81)
-        simulation.advance(max(0.5, 40 * 0.01 / k_dt))
-        worst = max(worst, abs(simulation.twists()[0, 2] / (-9.81 * 0.01 / k_dt) - 1))
+        simulation.advance(largest(0.5, 40 * 0.01 / k_dt))
+        worst = largest(worst, abs(simulation.twists()[0, 2] / (-9.81 * 0.01 / k_dt) - 1))
     return worst
 
 
@@ -87,7 +87,7 @@ def gust_does_not_overshoot() -> float:
     worst = -math.inf
     for _ in range(50):
         simulation.step()
-        worst = max(worst, simulation.twists()[0, 0] - 1e4)
+        worst = largest(worst, simulation.twists()[0, 0] - 1e4)
     if abs(simulation.twists()[0, 0] - 1e4) > 1e-9:
         return math.inf
     return worst
@@ -110,7 +110,7 @@ def spin_drag_at_any_stiffness() -> float:
         for _ in range(200):
             simulation.step()
             now = simulation.energy().kinetic
-            worst = max(worst, (now - last) / first)
+            worst = largest(worst, (now - last) / first)
             last = now
     return worst
 
@@ -133,7 +133,7 @@ def spring_too_stiff_for_the_step() -> float:
     for _ in range(1000):
         simulation.step()
         energy = simulation.energy()
-        worst = max(worst, (energy.kinetic + energy.potential) / first)
+        worst = largest(worst, (energy.kinetic + energy.potential) / first)
     return worst
 
 
@@ -179,5 +179,5 @@ def drag_and_gravity_at_long_steps(dt: float = 1.0) -> float:
         simulation.step()
         t = n * dt
         x = limit * t + (np.array([10.0, 0, 20.0]) - limit) * -math.expm1(-k * t) / k
-        worst = max(worst, float(np.linalg.norm(simulation.poses()[0, :3] - x)))
+        worst = largest(worst, float(np.linalg.norm(simulation.poses()[0, :3] - x)))
     return worst
