@@ -52,6 +52,16 @@ def test_the_table_tells_value_limit_unit_and_why(capsys):
     assert printed.err == ""
 
 
+def test_the_summary_counts_by_group_and_names_the_failed(monkeypatch, capsys):
+    good = cases_of("inertia")[0]
+    bad = good._replace(name="bad", run=lambda: 3.0, limit=2.0, unit="m")
+    monkeypatch.setattr(stress, "cases_of", lambda g: (bad, good) if g == "inertia" else ())
+    assert main(["stress", "--summary"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[1].startswith("inertia  2      1 ")
+    assert lines[-1] == f"FAIL bad: 3 m, limit 2; {good.why}"
+
+
 def test_json_has_a_schema_and_every_column(capsys):
     assert main(["stress", "inertia", "--only", "axes_of_a_cube", "--json"]) == 0
     result = json.loads(capsys.readouterr().out)

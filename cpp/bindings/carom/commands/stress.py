@@ -17,6 +17,7 @@ EXAMPLE = """\
   carom stress
   carom stress rotation contact
   carom stress --only stack_of_30 --json
+  carom stress --summary
   carom stress --list
 """
 
@@ -34,6 +35,7 @@ def add(subparsers: argparse._SubParsersAction) -> None:
     option("groups", nargs="*", metavar="GROUP", help="groups to run (all)")
     option("--only", action="append", metavar="NAME", help="this case; may be given again")
     option("--list", action="store_true", help="print the cases and why each is hard, run none")
+    option("--summary", action="store_true", help="a row per group, and those that failed")
     option("--long", action="store_true", help="ten times the length where a case has more to give")
     option("--quiet", action="store_true", help="no progress")
     option("--json", action="store_true", help="print the result as JSON")
@@ -59,7 +61,8 @@ def run(arguments: argparse.Namespace) -> int:
         rows = [as_row(outcome) for outcome in outcomes]
         print_json("carom.stress/1", {"ok": not failed, "failed": len(failed), "cases": rows})
     else:
-        _print_outcomes(outcomes, failed)
+        print(_by_group(outcomes) if arguments.summary else _by_case(outcomes))
+        _print_failed(outcomes, failed)
     return 1 if failed else 0
 
 
@@ -113,7 +116,17 @@ def _print_list(cases: Sequence[Case], as_json: bool) -> None:
         print(table(["  case", "why it is hard"], [["  " + c.name, c.why] for c in mine]) + "\n")
 
 
-def _print_outcomes(outcomes: Sequence[Outcome], failed: Sequence[Outcome]) -> None:
+def _by_group(outcomes: Sequence[Outcome]) -> str:
+    lines = []
+    for group in dict.fromkeys(outcome.case.group for outcome in outcomes):
+        mine = [outcome for outcome in outcomes if outcome.case.group == group]
+        bad = sum(not outcome.passed for outcome in mine)
+        seconds = sum(outcome.seconds for outcome in mine)
+        lines.append([group, str(len(mine)), str(bad), f"{seconds:.1f} s", GROUPS[group][0]])
+    return table(["group", "cases", "failed", "time", "about"], lines)
+
+
+def _by_case(outcomes: Sequence[Outcome]) -> str:
     headers = ["group", "case", "", "measured", "limit", "unit", "time", "of"]
     lines = [
         [
@@ -128,13 +141,16 @@ def _print_outcomes(outcomes: Sequence[Outcome], failed: Sequence[Outcome]) -> N
         ]
         for outcome in outcomes
     ]
-    print(table(headers, lines))
+    return table(headers, lines)
+
+
+def _print_failed(outcomes: Sequence[Outcome], failed: Sequence[Outcome]) -> None:
     seconds = sum(outcome.seconds for outcome in outcomes)
     print(f"\n{len(outcomes)} cases, {len(failed)} failed, {seconds:.1f} s")
     for outcome in failed:
-        print(f"FAIL {outcome.case.name}: {outcome.case.why}")
-        if outcome.problem:
-            print(f"     {outcome.problem}")
+        case = outcome.case
+        found = f"{number(outcome.value)} {case.unit}, limit {number(case.limit)}"
+        print(f"FAIL {case.name}: {outcome.problem or found}; {case.why}")
 
 
 @contextlib.contextmanager

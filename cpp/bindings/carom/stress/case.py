@@ -73,9 +73,9 @@ def run_case(case: Case, long: bool = False) -> Outcome:
     started = time.perf_counter()
     problem = ""
     try:
-        value = float(case.run(scale=10) if long and case.has_long else case.run())
+        value = float(case.run(scale=10) if long and case.has_long else case.run()) + 0.0  # no -0
     except Exception as error:  # a case may break in any way; the table goes on
         value = math.nan
-        problem = f"{type(error).__name__}: {error}"
+        problem = f"{type(error).__name__}: {str(error).partition(chr(10))[0]}"
     passed = math.isfinite(value) and value <= case.limit
     return Outcome(case, value, passed, time.perf_counter() - started, problem)
