@@ -96,7 +96,13 @@ TEST(Queries, ReachAnyDistanceUnlessTold) {
   EXPECT_NEAR(queries.ray({0, 1e6, 0}, {0, -1, 0}, inf).cast.distance, 1e6 - 0.5, 1e-9);
   EXPECT_NEAR(queries.shape(Sphere{0.1}, at(0, 1e3, 0), {0, -1, 0}, inf).cast.distance, 1e3 - 0.6,
               1e-9);
-  EXPECT_NEAR(queries.closest({0, 0, 1e6}, inf).distance, 1e6 - 0.5, 1e-9);
+  Scene lone;
+  BodyDefinition ball;
+  ball.shape = Sphere{0.5};
+  ball.is_static = true;
+  lone.add(ball);
+  const Simulation alone(std::move(lone));
+  EXPECT_NEAR(SceneQueries(alone).closest({0, 1e6, 0}, inf).distance, 1e6 - 0.5, 1e-9);
   for (const double bad : {-1.0, -inf, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW((void)queries.ray({0, 5, 0}, {0, -1, 0}, bad), InvalidInput);
     EXPECT_THROW((void)queries.shape(Sphere{0.1}, at(0, 5, 0), {0, -1, 0}, bad), InvalidInput);
