@@ -184,3 +184,31 @@ def book_overhang() -> float:
         stands = float(np.linalg.norm(simulation.centres() - start, axis=1).max()) < 0.02
         wrong += stands != (factor < 1)
     return wrong
+
+
+@cases.case(
+    "a semicircular arch of 15 stones stands while it is thicker than 0.1075 of its radius",
+    "of thicknesses 0.12 and 0.09, wrong outcomes",
+    0,
+    "outcomes",
+    note="0.1075 is for infinitely many stones that do not slide; 15 may do with a little less",
+)
+def masonry_arch() -> float:
+    wrong, stones, turn = 0, 15, math.pi / 15
+    for thickness in (0.12, 0.09):
+        scene = world(friction=1.0)
+        for i in range(stones):
+            points = [
+                [r * math.cos(a), y, r * math.sin(a)]
+                for r in (1 - thickness / 2, 1 + thickness / 2)
+                for a in (i * turn, (i + 1) * turn)
+                for y in (-0.1, 0.1)
+            ]
+            middle = np.mean(points, axis=0)
+            scene.add(ConvexHull(points - middle), position=middle, friction=1.0)
+        simulation = Simulation(scene, dt=1 / 240)
+        top = simulation.centres()[1 + stones // 2][2]
+        simulation.advance(4.0)
+        stands = simulation.centres()[1 + stones // 2][2] > 0.95 * top
+        wrong += stands != (thickness > 0.1075)
+    return wrong

@@ -30,6 +30,7 @@ GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
             "contact_slopes",
             "contact_slip",
             "contact_bounce",
+            "contact_benchmarks",
             "contact_odd",
         ),
     ),

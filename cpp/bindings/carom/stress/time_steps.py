@@ -115,6 +115,23 @@ def parabola_is_exact() -> float:
 
 
 @cases.case(
+    "two balls fall 1 cm apart: near enough for contacts to be looked for, touching nothing",
+    "distance to the parabola after 1 s at 60 Hz",
+    1e-13,
+    "m",
+    note="60 additions to at most 5 m, half an ulp (4e-16 m) each: 3e-14",
+)
+def falling_beside_another(gap: float = 0.01) -> float:
+    scene = Scene()
+    scene.effects.append(UniformGravity([0, 0, -9.81]))
+    for i in range(2):
+        scene.add(Sphere(0.1), position=[i * (0.2 + gap), 0, 0])
+    simulation = Simulation(scene)
+    simulation.advance(1.0)
+    return float(np.abs(simulation.poses()[:, 2] + 9.81 / 2).max())
+
+
+@cases.case(
     "a clock that shows a billion seconds: a step of 1 ms is 8389 ulps, and each sum rounds",
     "error of the clock after 10 000 steps of 1 ms from 1e9 s",
     2.4e-7,
