@@ -7,7 +7,7 @@ from carom.stress import GROUPS, cases_of, run_case
 
 KNOWN = {
     "fast_tumble_gets_substeps": "1.1e-2: sub-steps are longer than tolerance.hpp's bound supposes",
-    "falling_beside_another": "bodies with a contact point near them fall by sub-steps of order 1",
+    "falling_beside_others": "1 cm: islands of small steps fall by sub-steps of order 1",
     "slab_under_25_balls": "1.8e-8 m^2/s^2: Bullet published 5.7e-9; half a step late at the start",
     "elastic_cube_of_216": "13 % of the energy is booked as dissipated in the first hits, e = 1",
     "ball_in_a_corner": "1.1e-5 m: the small-steps solver trembles by 3e-5 m/s; direct holds it",
