@@ -12,12 +12,12 @@ from __future__ import annotations
 
 import argparse
 import json
+import multiprocessing
 import sys
 import time
 from collections import Counter
 from datetime import datetime, timezone
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -48,13 +48,16 @@ def fly(run: Run) -> Counter:
             break
     deepest = max(judge.deepest for judge in run.judges)
     counts["deeper_than_0.1_mm"] += deepest > DEEP
-    counts["frozen"] += bool(simulation.report.frozen)
+    report = simulation.report
+    counts["frozen"] += bool(report.frozen)
+    counts["in_which_a_body_waited"] += report.sweep.waited > 0
+    counts["impacts"] += report.sweep.impacts
+    counts["sweeps"] += report.sweep.sweeps
+    counts["gave_up"] += report.sweep.gave_up
     return counts
 
 
-def run_all(
-    runs: int, seed: int, ccd: str, first: int = 0, report: Any = None
-) -> tuple[dict[str, Counter], list[int]]:
+def run_all(runs: int, seed: int, ccd: str, first: int = 0) -> tuple[dict[str, Counter], list[int]]:
     """Counts per family and kind of body, and the indices of the runs that went wrong."""
     rows: dict[str, Counter] = {}
     bad = []
@@ -65,8 +68,30 @@ def run_all(
             bad.append(index)
         for name in ("total", f"family/{run.family}", *{f"kind/{kind}" for kind in run.kinds}):
             rows.setdefault(name, Counter()).update(counts)
-        if report and (index + 1 - first) % 500 == 0:
-            report(f"  {index + 1 - first} runs, {len(bad)} bad")
+    return dict(sorted(rows.items())), bad
+
+
+def _share(task: tuple[int, int, str, int]) -> tuple[dict[str, Counter], list[int]]:
+    return run_all(*task)
+
+
+def run_split(
+    runs: int, seed: int, ccd: str, first: int, jobs: int
+) -> tuple[dict[str, Counter], list[int]]:
+    """run_all by several processes: the same counts, as each run has a seed of its own."""
+    if jobs == 1:
+        return run_all(runs, seed, ccd, first)
+    part = 50
+    tasks = [
+        (min(part, first + runs - at), seed, ccd, at) for at in range(first, first + runs, part)
+    ]
+    rows: dict[str, Counter] = {}
+    bad: list[int] = []
+    with multiprocessing.get_context("spawn").Pool(jobs) as pool:
+        for done, wrong in pool.imap(_share, tasks):
+            bad += wrong
+            for name, counts in done.items():
+                rows.setdefault(name, Counter()).update(counts)
     return dict(sorted(rows.items())), bad
 
 
@@ -77,16 +102,16 @@ def main() -> int:
     option("--seed", type=int, default=20261126)
     option("--first", type=int, default=0, help="index of the first run")
     option("--control", type=int, help="runs of the negative control (all)")
+    option("--jobs", type=int, default=1, help="processes to share the runs")
     option("--summary", type=Path, help="JSON file to write")
     options = parser.parse_args()
-    report = (lambda text: print(text, file=sys.stderr)) if sys.stderr.isatty() else None
     control_runs = options.runs if options.control is None else options.control
     print(f"seed {options.seed}")
     started = time.perf_counter()
-    control, _ = run_all(control_runs, options.seed, "never", options.first, report)
+    control, _ = run_split(control_runs, options.seed, "never", options.first, options.jobs)
     tunnelled = control["total"]["crossed"] / control_runs if control_runs else 1.0
     print(f"control, continuous collision off: {tunnelled:.1%} of {control_runs} runs tunnel")
-    rows, bad = run_all(options.runs, options.seed, "auto", options.first, report)
+    rows, bad = run_split(options.runs, options.seed, "auto", options.first, options.jobs)
     for name, counts in rows.items():
         print(f"{name:20s} {dict(counts)}")
     print(f"{len(bad)} bad runs {bad[:20]}, {time.perf_counter() - started:.0f} s")
