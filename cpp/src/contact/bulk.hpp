@@ -18,6 +18,19 @@ struct alignas(128) BulkBody {
   double turn[3], unused_2;
 };
 
+/// What stays of a body through the step.
+struct alignas(32) BulkFrame {
+  double position[3], inverse_mass;
+  double inertia[8];  ///< inverse, xx yy zz xy xz yz, two unused
+};
+
+/// Changes of velocity, linear and angular, each with an unused fourth.
+struct alignas(64) BulkKick {
+  double kick[8];   ///< of the forces in one small step
+  double push[8];   ///< of the contacts in the last one: what they start the next with
+  double start[8];  ///< velocities as the small step began
+};
+
 /// One point of four patches.
 struct BulkPoint {
   Wide arm_a[3], arm_b[3];        ///< m, r x n
@@ -31,34 +44,79 @@ struct BulkPoint {
 
 /// Four patches: friction acts once per patch, at its centre, as a force and a twist.
 struct BulkRow {
-  int a[4], b[4];
-  int first, count;  ///< points
+  int a[4], b[4];      ///< slots
+  int contact[4];      ///< first of the patch, -1 in an empty lane
+  int lane_points[4];  ///< of each patch, at most `count`
+  int first, count;    ///< points
   Wide normal[3];
   Wide arm_a[3], arm_b[3];          ///< m, from the centres of mass to the patch's centre
   Wide inertia_a[6], inertia_b[6];  ///< inverse, xx yy zz xy xz yz
   Wide friction;
-  Wide tangent_step;  ///< kg, 1 / largest eigenvalue of the tangent mobility
-  Wide twist_mass;    ///< kg m^2; 0 for single points
-  Wide slip[3];       ///< N s of the substep, tangential
-  Wide twist;         ///< N m s of the substep, about the normal
+  Wide against_static;  ///< 1 or 0
+  Wide tangent_step;    ///< kg, 1 / largest eigenvalue of the tangent mobility
+  Wide twist_mass;      ///< kg m^2; 0 for single points
+  Wide slip[3];         ///< N s of the substep, tangential
+  Wide twist;           ///< N m s of the substep, about the normal
   Wide slip_total[3], twist_total;
-  Wide bias_rate, mass_scale, impulse_scale;  ///< of the soft contact
+};
+
+/// Four single points whose arms lie along the normal, between bodies that turn alike about all
+/// axes: balls. The normal impulse turns nothing and friction turns both about one axis.
+struct BulkBall {
+  int a[4], b[4];
+  int contact[4];  ///< -1 in an empty lane
+  Wide normal[3];
+  Wide lever_a, lever_b;      ///< m, from the centres along the normal
+  Wide inertia_a, inertia_b;  ///< inverse
+  Wide friction;
+  Wide against_static;
+  Wide mass, tangent_step;  ///< kg
+  Wide separation, impulse, total;
+  Wide slip[3], slip_total[3];
+};
+
+/// Rows of one colour: no two of their lanes share a moving body.
+struct BulkColour {
+  int rows_end, balls_end;
+};
+
+/// Where contacts keep what the kernel reads and writes, as places within an array of doubles.
+struct BulkContacts {
+  double* first;
+  std::ptrdiff_t stride;
+  std::ptrdiff_t normal, position, friction, impulse, impulse_at_end;  ///< a gap follows position
+};
+
+/// Of a soft contact: 0 between moving bodies, 1 against a static one.
+struct BulkSoftness {
+  double bias_rate[2], mass_scale[2], impulse_scale[2];
 };
 
 struct BulkBatch {
   BulkBody* bodies;
+  const BulkFrame* frames;
+  BulkKick* kicks;
   BulkRow* rows;
   BulkPoint* points;
-  int row_count;
-  double inverse_h;   ///< 1/s
-  double push_speed;  ///< m/s, most an overlap may add
+  BulkBall* balls;
+  const BulkColour* colours;
+  int colour_count, row_count, ball_count, moving;
+  BulkSoftness soft;
+  double substeps;
+  double h, inverse_h;  ///< s, 1/s
+  double push_speed;    ///< m/s, most an overlap may add
 };
 
 struct BulkKernels {
-  void (*warm_start)(const BulkBatch&);
+  void (*prepare)(const BulkBatch&, const BulkContacts&);
+  void (*warm_start)(const BulkBatch&);  ///< the contacts' first push
+  void (*begin)(const BulkBatch&);       ///< forces, and the push of the small step before
   void (*press)(const BulkBatch&);       ///< soft normals
-  void (*relax)(const BulkBatch&);       ///< friction, then normals without push
-  double (*residual)(const BulkBatch&);  ///< m/s, natural map of Coulomb's law
+  void (*move)(const BulkBatch&, double h);
+  void (*relax)(const BulkBatch&);  ///< friction, then normals without push
+  void (*end)(const BulkBatch&);
+  double (*residual)(const BulkBatch&);                  ///< m/s, natural map of Coulomb's law
+  void (*write)(const BulkBatch&, const BulkContacts&);  ///< impulses to the contacts
 };
 
 /// The widest kernels this CPU runs.

@@ -15,8 +15,17 @@ inline Four multiply_add(Four a, Four b, Four c) {
 inline Four square_root(Four a) {
   return Four{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 }
-}  // namespace
+
+// clang-format off: in this order
+#include "contact/bulk_lanes.inl"
 #include "contact/bulk_kernel.inl"
+#include "contact/bulk_balls.inl"
+#include "contact/bulk_prepare.inl"
+#include "contact/bulk_batch.inl"
+// clang-format on
+}  // namespace
+extern const BulkKernels kernels;
+const BulkKernels kernels = all_kernels;
 }  // namespace portable
 
 const BulkKernels& bulk_kernels() {

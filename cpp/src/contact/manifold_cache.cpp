@@ -28,7 +28,7 @@ void ManifoldCache::clear() {
   pairs.clear(), points.clear();
 }
 
-bool ManifoldCache::carry(const Pair& before, const Pose& pose_a, const Pose& pose_b,
+bool ManifoldCache::carry(const Pair& before, const Frame& frame_a, const Frame& frame_b,
                           const Eigen::Vector3d& offset, const Eigen::Quaterniond& rotation,
                           double margin, double reach, std::vector<Manifold>& out) {
   const double most = tolerance::recycle_motion * reach;
@@ -45,10 +45,10 @@ bool ManifoldCache::carry(const Pair& before, const Pose& pose_a, const Pose& po
     const Point& p = points_before_[k];
     if (p.patch != patch) {
       patch = p.patch;
-      out.emplace_back().normal = pose_a.orientation * loaded(p.normal_a);
+      out.emplace_back().normal = frame_a.rotation * loaded(p.normal_a);
     }
     Manifold& m = out.back();
-    const Eigen::Vector3d xa = pose_a * loaded(p.on_a), xb = pose_b * loaded(p.on_b);
+    const Eigen::Vector3d xa = frame_a * loaded(p.on_a), xb = frame_b * loaded(p.on_b);
     m.points[m.count++] = {0.5 * (xa + xb), m.normal.dot(xb - xa), p.feature};
   }
   Pair kept = before;
@@ -59,26 +59,26 @@ bool ManifoldCache::carry(const Pair& before, const Pose& pose_a, const Pose& po
   return true;
 }
 
-void ManifoldCache::collide(int a, int b, const Shape& shape_a, const Pose& pose_a,
-                            const Shape& shape_b, const Pose& pose_b, double margin, double reach,
-                            std::vector<Manifold>& out) {
+void ManifoldCache::collide(int a, int b, const Placed& in_a, const Placed& in_b, double margin,
+                            double reach, std::vector<Manifold>& out) {
+  const Frame &frame_a = in_a.frame, &frame_b = in_b.frame;
   // A ball's point does not stay in place when it rolls, and finding it costs less than this.
-  if (std::holds_alternative<Sphere>(shape_a) || std::holds_alternative<Sphere>(shape_b)) {
-    carom::collide(shape_a, pose_a, shape_b, pose_b, margin, out);
+  if (std::holds_alternative<Sphere>(in_a.shape) || std::holds_alternative<Sphere>(in_b.shape)) {
+    carom::collide(in_a.shape, frame_a, in_b.shape, frame_b, margin, out);
     return;
   }
-  const Eigen::Quaterniond inverse_a = pose_a.orientation.conjugate();
-  const Eigen::Vector3d offset = inverse_a * (pose_b.position - pose_a.position);
-  const Eigen::Quaterniond rotation = inverse_a * pose_b.orientation;
+  const Eigen::Vector3d offset =
+      frame_a.rotation.transpose() * (frame_b.translation - frame_a.translation);
+  const Eigen::Quaterniond rotation = in_a.orientation.conjugate() * in_b.orientation;
   while (next_ < pairs_before_.size() &&
          std::pair(pairs_before_[next_].a, pairs_before_[next_].b) < std::pair(a, b))
     ++next_;
   if (next_ < pairs_before_.size() && pairs_before_[next_].a == a && pairs_before_[next_].b == b &&
-      carry(pairs_before_[next_], pose_a, pose_b, offset, rotation, margin, reach, out))
+      carry(pairs_before_[next_], frame_a, frame_b, offset, rotation, margin, reach, out))
     return;
 
   const std::size_t first_manifold = out.size();
-  carom::collide(shape_a, pose_a, shape_b, pose_b, margin, out);
+  carom::collide(in_a.shape, frame_a, in_b.shape, frame_b, margin, out);
   Pair pair{a,
             b,
             stored(offset),
@@ -86,14 +86,13 @@ void ManifoldCache::collide(int a, int b, const Shape& shape_a, const Pose& pose
             margin,
             static_cast<int>(points.size()),
             0};
-  const Eigen::Quaterniond inverse_b = pose_b.orientation.conjugate();
   for (std::size_t i = first_manifold; i < out.size(); ++i) {
     const Manifold& m = out[i];
     for (int k = 0; k < m.count; ++k) {
       const Eigen::Vector3d half = 0.5 * m.points[k].separation * m.normal;
-      points.push_back({stored(inverse_a * (m.points[k].position - half - pose_a.position)),
-                        stored(inverse_b * (m.points[k].position + half - pose_b.position)),
-                        stored(inverse_a * m.normal), m.points[k].feature,
+      points.push_back({stored(frame_a.to_local(m.points[k].position - half)),
+                        stored(frame_b.to_local(m.points[k].position + half)),
+                        stored(frame_a.rotation.transpose() * m.normal), m.points[k].feature,
                         static_cast<int>(i - first_manifold)});
       ++pair.count;
     }

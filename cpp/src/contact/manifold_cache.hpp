@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "carom/geometry/frame.hpp"
 #include "carom/geometry/shape.hpp"
 #include "carom/narrow/contacts.hpp"
 
@@ -35,13 +36,19 @@ class ManifoldCache {
 
   void begin_step();
   void clear();
+  /// A shape where it is, as a matrix and as a quaternion.
+  struct Placed {
+    const Shape& shape;
+    const Frame& frame;
+    Eigen::Quaterniond orientation;
+  };
   /// Appends the pair's manifolds to `out`, found again or carried along. `reach`: m, length of the
   /// smaller body, to which the motion that is let pass is proportional.
-  void collide(int a, int b, const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
-               const Pose& pose_b, double margin, double reach, std::vector<Manifold>& out);
+  void collide(int a, int b, const Placed& in_a, const Placed& in_b, double margin, double reach,
+               std::vector<Manifold>& out);
 
  private:
-  bool carry(const Pair& before, const Pose& pose_a, const Pose& pose_b,
+  bool carry(const Pair& before, const Frame& frame_a, const Frame& frame_b,
              const Eigen::Vector3d& offset, const Eigen::Quaterniond& rotation, double margin,
              double reach, std::vector<Manifold>& out);
 

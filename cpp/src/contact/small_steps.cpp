@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <type_traits>
 
 #include "carom/numerics/tolerance.hpp"
 
@@ -14,21 +16,35 @@ namespace {
 constexpr int colour_count = 64;
 constexpr int load_rounds = 16;  // loads travel about one layer per small step
 
-void set(Wide (&w)[3], int lane, const Eigen::Vector3d& v) {
-  for (int k = 0; k < 3; ++k) w[k].lane[lane] = v[k];
-}
-
-Eigen::Vector3d get(const Wide (&w)[3], int lane) {
-  return {w[0].lane[lane], w[1].lane[lane], w[2].lane[lane]};
-}
-
-void set(Wide (&w)[6], int lane, const Eigen::Matrix3d& m) {
-  w[0].lane[lane] = m(0, 0), w[1].lane[lane] = m(1, 1), w[2].lane[lane] = m(2, 2);
-  w[3].lane[lane] = m(0, 1), w[4].lane[lane] = m(0, 2), w[5].lane[lane] = m(1, 2);
-}
-
 double inverse_or_zero(double x) {
   return x > 0 ? 1 / x : 0;
+}
+
+BulkSoftness coefficients(int substeps, double dt) {
+  BulkSoftness out;
+  const double h = dt / substeps;
+  for (const int fixed : {0, 1}) {
+    const Softness soft = softness(substeps, dt, fixed == 1);
+    const double omega = 2 * std::numbers::pi * soft.frequency;
+    const double a1 = 2 * soft.damping_ratio + h * omega, a2 = h * omega * a1;
+    out.bias_rate[fixed] = omega / a1;
+    out.mass_scale[fixed] = a2 / (1 + a2);
+    out.impulse_scale[fixed] = 1 / (1 + a2);
+  }
+  return out;
+}
+
+/// Contacts as the kernel sees them: a class of doubles, and of ints in pairs.
+BulkContacts as_doubles(std::span<Contact> contacts) {
+  static_assert(std::is_standard_layout_v<Contact> && sizeof(Contact) % sizeof(double) == 0);
+  static_assert(offsetof(Contact, separation) == offsetof(Contact, position) + 3 * sizeof(double));
+  const auto place = [](std::size_t bytes) {
+    return static_cast<std::ptrdiff_t>(bytes / sizeof(double));
+  };
+  return {reinterpret_cast<double*>(contacts.data()), place(sizeof(Contact)),
+          place(offsetof(Contact, normal)),           place(offsetof(Contact, position)),
+          place(offsetof(Contact, friction)),         place(offsetof(Contact, impulse)),
+          place(offsetof(Contact, impulse_at_end))};
 }
 
 }  // namespace
@@ -77,135 +93,99 @@ void SmallSteps::colour(const BodyStates& states) {
   }
 }
 
-void SmallSteps::prepare(const BodyStates& states, const BodyFrames& frames,
-                         std::span<const Contact> contacts, double dt, int substeps) {
+void SmallSteps::place_bodies(const BodyStates& states, const BodyFrames& frames, int substeps) {
   const int moving = static_cast<int>(body_rows_.size());
   const int slots = moving + static_cast<int>(static_rows_.size());
-  bodies_.resize(slots + 1);  // the last takes the empty lanes
-  kick_.resize(6 * static_cast<std::size_t>(moving));
-  std::fill(bodies_.begin(), bodies_.end(), BulkBody{});
+  bodies_.assign(slots + 1, {});  // the last takes the empty lanes
+  frames_.assign(slots + 1, {});
+  kicks_.assign(moving, {});
   for (int s = 0; s < slots; ++s) {
-    const int row = s < moving ? body_rows_[s] : static_rows_[s - moving];
-    BulkBody& body = bodies_[s];
     const bool moves = s < moving;
+    const int row = moves ? body_rows_[s] : static_rows_[s - moving];
+    BulkBody& body = bodies_[s];
+    BulkFrame& frame = frames_[s];
     const Eigen::Vector3d v = moves ? frames.velocity_before[row] : states.velocity[row];
     const Eigen::Vector3d w = moves ? frames.omega_before[row] : frames.omega[row];
-    for (int k = 0; k < 3; ++k) body.velocity[k] = v[k], body.angular_velocity[k] = w[k];
-    body.inverse_mass = states.inverse_mass[row];
+    const Eigen::Vector3d x = states.position[row];
+    for (int k = 0; k < 3; ++k)
+      body.velocity[k] = v[k], body.angular_velocity[k] = w[k], frame.position[k] = x[k];
     if (!moves) continue;
+    body.inverse_mass = frame.inverse_mass = states.inverse_mass[row];
+    const Eigen::Matrix3d& i = frames.inverse_inertia[row];
+    const double six[6] = {i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)};
+    std::copy(six, six + 6, frame.inertia);
     const Eigen::Vector3d dv = (frames.velocity[row] - frames.velocity_before[row]) / substeps;
     const Eigen::Vector3d dw = (frames.omega[row] - frames.omega_before[row]) / substeps;
-    for (int k = 0; k < 3; ++k) kick_[6 * s + k] = dv[k], kick_[6 * s + 3 + k] = dw[k];
-  }
-
-  lane_patch_.clear();
-  turns_.clear();
-  rows_.clear();
-  std::size_t points = 0;
-  for (int c = 0; c <= colour_count; ++c) {
-    // Patches of one size share rows, so that few lanes run empty.
-    auto& list = colours_[c];
-    std::ranges::sort(list, [&](int i, int j) {
-      return std::pair(-patches_[i].count, i) < std::pair(-patches_[j].count, j);
-    });
-    const std::size_t lanes = c < colour_count ? 4 : 1;
-    for (std::size_t i = 0; i < list.size(); i += lanes) {
-      BulkRow& row = rows_.emplace_back();
-      row.first = static_cast<int>(points);
-      row.count = patches_[list[i]].count;
-      points += row.count;
-      for (std::size_t l = 0; l < 4; ++l)
-        lane_patch_.push_back(l < lanes && i + l < list.size() ? list[i + l] : -1);
-    }
-  }
-  points_.resize(points);
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    BulkRow& row = rows_[r];
-    const int first = row.first, count = row.count;
-    row = BulkRow{};
-    row.first = first, row.count = count;
-    for (int k = 0; k < count; ++k) points_[first + k] = BulkPoint{};
-    for (int lane = 0; lane < 4; ++lane) {
-      row.a[lane] = row.b[lane] = slots;
-      const int patch = lane_patch_[4 * r + lane];
-      if (patch < 0) continue;
-      fill(row, lane, patches_[patch], states, frames, contacts, dt, substeps);
-      add_turn(static_cast<int>(r), lane, patches_[patch], frames, contacts);
-    }
+    for (int k = 0; k < 3; ++k) kicks_[s].kick[k] = dv[k], kicks_[s].kick[4 + k] = dw[k];
   }
 }
 
-void SmallSteps::fill(BulkRow& row, int lane, const Patch& patch, const BodyStates& states,
-                      const BodyFrames& frames, std::span<const Contact> contacts, double dt,
-                      int substeps) {
-  const std::span<const Contact> mine = contacts.subspan(patch.first, patch.count);
-  const Eigen::Vector3d n = mine[0].normal;
-  const Eigen::Vector3d xa = states.position[patch.a], xb = states.position[patch.b];
-  const Eigen::Matrix3d &ia = frames.inverse_inertia[patch.a],
-                        &ib = frames.inverse_inertia[patch.b];
-  const double ma = states.inverse_mass[patch.a], mb = states.inverse_mass[patch.b];
-  row.a[lane] = slot_[patch.a], row.b[lane] = slot_[patch.b];
-  set(row.normal, lane, n);
-  set(row.inertia_a, lane, ia);
-  set(row.inertia_b, lane, ib);
-  row.friction.lane[lane] = mine[0].friction;
+// Turns alike about all axes, or stands still, and no lever against the normal: to rounding.
+bool SmallSteps::is_ball(const BodyStates& states, const BodyFrames& frames, int row,
+                         const Contact& c) {
+  if (!states.moves[row]) return states.velocity[row].isZero(0) && frames.omega[row].isZero(0);
+  const double least = states.moments.x[row], most = states.moments.z[row];
+  if (!(most - least <= tolerance::equal_moments * most)) return false;
+  const Eigen::Vector3d arm = c.position - states.position[row];
+  return arm.cross(c.normal).squaredNorm() <=
+         tolerance::equal_moments * tolerance::equal_moments * arm.squaredNorm();
+}
 
-  const bool against_static = !states.moves[patch.a] || !states.moves[patch.b];
-  const Softness soft = softness(substeps, dt, against_static);
-  const double h = dt / substeps, omega = 2 * std::numbers::pi * soft.frequency;
-  const double a1 = 2 * soft.damping_ratio + h * omega, a2 = h * omega * a1;
-  row.bias_rate.lane[lane] = omega / a1;
-  row.mass_scale.lane[lane] = a2 / (1 + a2);
-  row.impulse_scale.lane[lane] = 1 / (1 + a2);
+bool SmallSteps::goes_as_ball(const Patch& patch, const BodyStates& states,
+                              const BodyFrames& frames, std::span<const Contact> contacts) {
+  const Contact& c = contacts[patch.first];
+  return patch.count == 1 && !(c.rolling_resistance > 0) && !(c.spinning_resistance > 0) &&
+         is_ball(states, frames, patch.a, c) && is_ball(states, frames, patch.b, c);
+}
 
-  // The patch's centre: where the load was, so that the friction force has the right lever.
-  double weight = 0;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), slip = Eigen::Vector3d::Zero();
-  for (const Contact& c : mine) {
-    const double w = std::max(c.impulse.dot(n), 0.0);
-    centre += w * c.position, weight += w;
+void SmallSteps::lay_rows(const BodyStates& states, const BodyFrames& frames,
+                          std::span<const Contact> contacts) {
+  const int nobody = static_cast<int>(bodies_.size()) - 1;
+  rows_.clear(), balls_.clear(), turns_.clear(), stripes_.clear();
+  int points = 0;
+  const auto lanes_of = [&](auto& row, const int* list, std::size_t taken) {
+    for (std::size_t l = 0; l < 4; ++l) {
+      row.a[l] = row.b[l] = nobody;
+      row.contact[l] = -1;
+      row.against_static.lane[l] = 0;
+      if (l >= taken) continue;
+      const Patch& p = patches_[list[l]];
+      row.a[l] = slot_[p.a], row.b[l] = slot_[p.b];
+      row.contact[l] = p.first;
+      row.against_static.lane[l] = !states.moves[p.a] || !states.moves[p.b];
+    }
+  };
+  for (int c = 0; c <= colour_count; ++c) {
+    // Patches of one size share rows, so that few lanes run empty.
+    for (auto& list : by_size_) list.clear();
+    for (const int i : colours_[c]) {
+      const bool ball = c < colour_count && goes_as_ball(patches_[i], states, frames, contacts);
+      by_size_[ball ? 0 : std::min(patches_[i].count, most_points)].push_back(i);
+    }
+    const std::size_t width = c < colour_count ? 4 : 1;
+    for (std::size_t i = 0; i < by_size_[0].size(); i += 4)
+      lanes_of(balls_.emplace_back(), &by_size_[0][i],
+               std::min<std::size_t>(4, by_size_[0].size() - i));
+    list_.clear();
+    for (int size = most_points; size > 0; --size)
+      list_.insert(list_.end(), by_size_[size].begin(), by_size_[size].end());
+    for (std::size_t i = 0; i < list_.size(); i += width) {
+      BulkRow& row = rows_.emplace_back();
+      const std::size_t taken = std::min(width, list_.size() - i);
+      lanes_of(row, &list_[i], taken);
+      row.first = points, row.count = 0;
+      for (std::size_t l = 0; l < 4; ++l) {
+        row.lane_points[l] = l < taken ? patches_[list_[i + l]].count : 0;
+        row.count = std::max(row.count, row.lane_points[l]);
+        if (l < taken)
+          add_turn(static_cast<int>(rows_.size()) - 1, static_cast<int>(l), patches_[list_[i + l]],
+                   frames, contacts);
+      }
+      points += row.count;
+    }
+    stripes_.push_back({static_cast<int>(rows_.size()), static_cast<int>(balls_.size())});
   }
-  if (weight > 0) {
-    centre /= weight;
-  } else {
-    for (const Contact& c : mine) centre += c.position;
-    centre /= patch.count;
-  }
-  double twist = 0;
-  for (int k = 0; k < patch.count; ++k) {
-    const Contact& c = mine[k];
-    BulkPoint& p = points_[row.first + k];
-    const Eigen::Vector3d ra = c.position - xa, rb = c.position - xb;
-    const Eigen::Vector3d an = ra.cross(n), bn = rb.cross(n);
-    const Eigen::Vector3d answer_a = ia * an, answer_b = ib * bn;
-    set(p.arm_a, lane, an), set(p.arm_b, lane, bn);
-    set(p.answer_a, lane, answer_a), set(p.answer_b, lane, answer_b);
-    p.mass.lane[lane] = inverse_or_zero(ma + mb + an.dot(answer_a) + bn.dot(answer_b));
-    p.separation.lane[lane] = c.separation;
-    const double normal = std::max(c.impulse.dot(n), 0.0);
-    p.impulse.lane[lane] = normal / substeps;
-    const Eigen::Vector3d tangent = c.impulse - c.impulse.dot(n) * n;
-    slip += tangent;
-    const Eigen::Vector3d off = c.position - centre;
-    twist += n.dot(off.cross(tangent));
-    p.spread.lane[lane] = (off - n.dot(off) * n).norm();
-  }
-  const Eigen::Vector3d ra = centre - xa, rb = centre - xb;
-  set(row.arm_a, lane, ra), set(row.arm_b, lane, rb);
-  const Eigen::Matrix3d f = frame_about(n);
-  const Eigen::Vector3d a1t = ra.cross(f.col(1)), a2t = ra.cross(f.col(2)),
-                        b1t = rb.cross(f.col(1)), b2t = rb.cross(f.col(2));
-  const double w11 = ma + mb + a1t.dot(ia * a1t) + b1t.dot(ib * b1t);
-  const double w22 = ma + mb + a2t.dot(ia * a2t) + b2t.dot(ib * b2t);
-  const double w12 = a1t.dot(ia * a2t) + b1t.dot(ib * b2t);
-  // One step length for both directions: unequal ones have another fixed point than Coulomb's.
-  const double largest = 0.5 * (w11 + w22) + std::hypot(0.5 * (w11 - w22), w12);
-  row.tangent_step.lane[lane] = inverse_or_zero(largest);
-  set(row.slip, lane, slip / substeps);
-  if (patch.count > 1) {
-    row.twist_mass.lane[lane] = inverse_or_zero(n.dot((ia + ib) * n));
-    row.twist.lane[lane] = twist / substeps;
-  }
+  points_.resize(points);
 }
 
 void SmallSteps::add_turn(int row, int lane, const Patch& patch, const BodyFrames& frames,
@@ -240,7 +220,14 @@ void SmallSteps::resist_turning() {
     const double length = roll.norm();
     if (length > most_roll) roll *= most_roll / length;
     t.impulse = roll + spin * t.normal;
-    wa -= t.inverse_a * t.impulse, wb += t.inverse_b * t.impulse;
+    const Eigen::Vector3d da = t.inverse_a * t.impulse, db = t.inverse_b * t.impulse;
+    wa -= da, wb += db;
+    // Not a push to start the next small step with: as if it had been there before this one.
+    const std::size_t moving = kicks_.size();
+    for (int k = 0; k < 3; ++k) {
+      if (row.a[t.lane] < static_cast<int>(moving)) kicks_[row.a[t.lane]].start[4 + k] -= da[k];
+      if (row.b[t.lane] < static_cast<int>(moving)) kicks_[row.b[t.lane]].start[4 + k] += db[k];
+    }
     t.total += t.impulse;
   }
 }
@@ -251,77 +238,16 @@ void SmallSteps::write_turns(std::span<Contact> contacts) {
       contacts[t.first_contact + k].turning_impulse = t.total / t.count;
 }
 
-// The patch's friction goes back to its points: the force in proportion to their loads, the twist
-// about the centre of these loads, where it adds no force.
-template <class NormalOf, class Assign>
-void SmallSteps::spread(const BulkRow& row, int lane, const Patch& patch,
-                        const Eigen::Vector3d& slip, double twist, NormalOf normal_of,
-                        Assign assign) {
-  const Eigen::Vector3d n = get(row.normal, lane), arm = get(row.arm_b, lane);
-  const Eigen::Vector3d centre = arm - n.dot(arm) * n;
-  const auto lever = [&](int k) -> Eigen::Vector3d {
-    // (r x n) x n is minus the tangent part of r.
-    return -get(points_[row.first + k].arm_b, lane).cross(n) - centre;
-  };
-  double load = 0, moment = 0, reach = 0;
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-  for (int k = 0; k < patch.count; ++k) {
-    const double normal = normal_of(points_[row.first + k]);
-    load += normal, offset += normal * lever(k);
-  }
-  if (load > 0) offset /= load;
-  for (int k = 0; k < patch.count; ++k) {
-    const double normal = normal_of(points_[row.first + k]);
-    const double d = (lever(k) - offset).norm();
-    moment += normal * d * d, reach += normal * d;
-  }
-  const double most = row.friction.lane[lane] * reach;
-  twist = std::clamp(twist - n.dot(offset.cross(slip)), -most, most);
-  for (int k = 0; k < patch.count; ++k) {
-    const double normal = normal_of(points_[row.first + k]);
-    Eigen::Vector3d impulse = normal * n;
-    if (load > 0) impulse += normal / load * slip;
-    if (moment > 0) impulse += twist * normal / moment * n.cross(lever(k) - offset);
-    assign(patch.first + k, impulse);
-  }
-}
-
-void SmallSteps::write_impulses(std::span<Contact> contacts, int substeps) {
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const BulkRow& row = rows_[r];
-    for (int lane = 0; lane < 4; ++lane) {
-      const int index = lane_patch_[4 * r + lane];
-      if (index < 0) continue;
-      const Patch& patch = patches_[index];
-      spread(
-          row, lane, patch, get(row.slip_total, lane), row.twist_total.lane[lane],
-          [&](const BulkPoint& p) { return p.total.lane[lane]; },
-          [&](int k, const Eigen::Vector3d& f) { contacts[k].impulse = f; });
-      spread(
-          row, lane, patch, substeps * get(row.slip, lane), substeps * row.twist.lane[lane],
-          [&](const BulkPoint& p) { return substeps * p.impulse.lane[lane]; },
-          [&](int k, const Eigen::Vector3d& f) { contacts[k].impulse_at_end = f; });
-    }
-  }
-}
-
 void SmallSteps::take_small_step(const BulkBatch& batch, double h) {
   const BulkKernels& kernels = bulk_kernels();
-  const std::size_t moving = body_rows_.size();
-  for (std::size_t i = 0; i < moving; ++i)
-    for (int j = 0; j < 3; ++j) {
-      bodies_[i].velocity[j] += kick_[6 * i + j];
-      bodies_[i].angular_velocity[j] += kick_[6 * i + 3 + j];
-    }
-  kernels.warm_start(batch);
+  kernels.begin(batch);
+  if (!pushed_) kernels.warm_start(batch);
+  pushed_ = true;
   kernels.press(batch);
-  for (std::size_t i = 0; i < moving; ++i)
-    for (int j = 0; j < 3; ++j) {
-      bodies_[i].displacement[j] += h * bodies_[i].velocity[j];
-      bodies_[i].turn[j] += h * bodies_[i].angular_velocity[j];
-    }
+  kernels.move(batch, h);
   resist_turning();
   kernels.relax(batch);
+  kernels.end(batch);
 }
 
 bool SmallSteps::just_placed(const BodyFrames& frames, std::span<const Contact> contacts) const {
@@ -346,25 +272,46 @@ void SmallSteps::find_loads(const BulkBatch& batch, int substeps) {
     row.twist_total = Wide{};
     for (Wide& w : row.slip_total) w = Wide{};
   }
+  for (BulkBall& row : balls_) {
+    row.total = Wide{};
+    for (Wide& w : row.slip_total) w = Wide{};
+  }
   for (Turn& t : turns_) t.total.setZero();
 }
 
 double SmallSteps::solve(BodyStates& states, const BodyFrames& frames, std::span<Contact> contacts,
                          ContactMotion& motion, double dt, int substeps, double& dissipated) {
   colour(states);
-  prepare(states, frames, contacts, dt, substeps);
+  place_bodies(states, frames, substeps);
+  lay_rows(states, frames, contacts);
   const double h = dt / substeps;
   const BulkKernels& kernels = bulk_kernels();
-  const BulkBatch batch{bodies_.data(), rows_.data(),
-                        points_.data(), static_cast<int>(rows_.size()),
-                        1 / h,          tolerance::push_speed};
-  const std::size_t moving = body_rows_.size();
+  const BulkBatch batch{.bodies = bodies_.data(),
+                        .frames = frames_.data(),
+                        .kicks = kicks_.data(),
+                        .rows = rows_.data(),
+                        .points = points_.data(),
+                        .balls = balls_.data(),
+                        .colours = stripes_.data(),
+                        .colour_count = static_cast<int>(stripes_.size()),
+                        .row_count = static_cast<int>(rows_.size()),
+                        .ball_count = static_cast<int>(balls_.size()),
+                        .moving = static_cast<int>(body_rows_.size()),
+                        .soft = coefficients(substeps, dt),
+                        .substeps = static_cast<double>(substeps),
+                        .h = h,
+                        .inverse_h = 1 / h,
+                        .push_speed = tolerance::push_speed};
+  const BulkContacts places = as_doubles(contacts);
+  kernels.prepare(batch, places);
+  pushed_ = false;
   if (just_placed(frames, contacts)) find_loads(batch, substeps);
   for (int k = 0; k < substeps; ++k) take_small_step(batch, h);
   const double residual = kernels.residual(batch);
-  write_impulses(contacts, substeps);
+  kernels.write(batch, places);
   write_turns(contacts);
 
+  const std::size_t moving = body_rows_.size();
   for (std::size_t i = 0; i < moving; ++i) {
     const int row = body_rows_[i];
     const BulkBody& body = bodies_[i];

@@ -35,14 +35,13 @@ class SmallSteps {
 
  private:
   void colour(const BodyStates& states);
-  void prepare(const BodyStates& states, const BodyFrames& frames,
-               std::span<const Contact> contacts, double dt, int substeps);
-  void fill(BulkRow& row, int lane, const Patch& patch, const BodyStates& states,
-            const BodyFrames& frames, std::span<const Contact> contacts, double dt, int substeps);
-  template <class NormalOf, class Assign>
-  void spread(const BulkRow& row, int lane, const Patch& patch, const Eigen::Vector3d& slip,
-              double twist, NormalOf normal_of, Assign assign);
-  void write_impulses(std::span<Contact> contacts, int substeps);
+  void place_bodies(const BodyStates& states, const BodyFrames& frames, int substeps);
+  static bool is_ball(const BodyStates& states, const BodyFrames& frames, int row,
+                      const Contact& contact);
+  static bool goes_as_ball(const Patch& patch, const BodyStates& states, const BodyFrames& frames,
+                           std::span<const Contact> contacts);
+  void lay_rows(const BodyStates& states, const BodyFrames& frames,
+                std::span<const Contact> contacts);
   void take_small_step(const BulkBatch& batch, double h);
   [[nodiscard]] bool just_placed(const BodyFrames& frames, std::span<const Contact> contacts) const;
   void find_loads(const BulkBatch& batch, int substeps);
@@ -66,13 +65,18 @@ class SmallSteps {
   std::vector<int> slot_;  // by row, -1 while unused
   std::vector<std::uint64_t> colours_used_;
   std::vector<std::vector<int>> colours_;  // patches of each colour; the last: those left over
-  std::vector<int> lane_patch_;            // patch of each lane of each row, -1: empty
+  static constexpr int most_points = 4;    // of a manifold
+  std::vector<int> by_size_[most_points + 1], list_;  // of the colour at hand; balls first
   std::vector<BulkBody> bodies_;
+  std::vector<BulkFrame> frames_;
+  std::vector<BulkKick> kicks_;
   std::vector<BulkRow> rows_;
   std::vector<BulkPoint> points_;
+  std::vector<BulkBall> balls_;
+  std::vector<BulkColour> stripes_;
   std::vector<Turn> turns_;
   std::vector<BulkBody> start_;
-  std::vector<double> kick_;  // per moving body: linear and angular of one small step
+  bool pushed_ = false;  // whether the kicks know what the contacts start with
 };
 
 }  // namespace carom::contact

@@ -26,6 +26,14 @@ void add(const Vector3d& centre, const Vector3d& normal, double distance, double
 
 }  // namespace
 
+void ball_ball(double radius_a, const Vector3d& centre, double radius, double margin,
+               std::vector<Manifold>& out) {
+  const double distance = centre.norm();
+  if (distance - radius_a - radius > margin) return;
+  const Vector3d n = distance > 0 ? Vector3d(centre / distance) : Vector3d::UnitZ();
+  add(centre, n, distance - radius_a, radius, feature::curve(0), out);
+}
+
 void box_ball(const Vector3d& half, const Vector3d& centre, double radius, double margin,
               std::vector<Manifold>& out) {
   const Vector3d nearest = centre.cwiseMax(-half).cwiseMin(half);

@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 /// A face seen along the normal: plane coordinates and height of each corner.
 struct Flat {
   std::vector<Vector2d> at;
-  std::vector<double> height;
-  Vector2d slope = Vector2d::Zero();  // of the height over the plane
-  double size = 0, turn = 1;          // turn: -1 when corners run clockwise
+  std::vector<double> height, length;  // length: of the edge that starts at each corner
+  Vector2d slope = Vector2d::Zero();   // of the height over the plane
+  double size = 0, turn = 1;           // turn: -1 when corners run clockwise
   bool has_area = false;
 
   void set(const Face& face, const Vector3d& u, const Vector3d& v, const Vector3d& n,
@@ -29,13 +29,16 @@ struct Flat {
     const std::size_t count = face.points.size();
     at.resize(count);
     height.resize(count);
+    length.resize(count);
     size = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Vector3d x = face.points[i] - origin;
       at[i] = {u.dot(x), v.dot(x)};
       height[i] = n.dot(x);
-      size = std::max(size, (at[i] - at[0]).norm());
+      size = std::max(size, (at[i] - at[0]).squaredNorm());
     }
+    size = std::sqrt(size);
+    for (std::size_t i = 0; i < count; ++i) length[i] = (at[(i + 1) % count] - at[i]).norm();
     set_plane(face, u, v, n);
   }
   void set_plane(const Face& face, const Vector3d& u, const Vector3d& v, const Vector3d& n) {
@@ -52,8 +55,8 @@ struct Flat {
   bool contains(const Vector2d& x) const {
     const double slack = tolerance::inside_polygon * size;
     for (std::size_t i = 0; i < at.size(); ++i) {
-      const Vector2d e = at[(i + 1) % at.size()] - at[i], w = x - at[i];
-      if (turn * (e.x() * w.y() - e.y() * w.x()) < -slack * e.norm()) return false;
+      const Vector2d e = at[i + 1 < at.size() ? i + 1 : 0] - at[i], w = x - at[i];
+      if (turn * (e.x() * w.y() - e.y() * w.x()) < -slack * length[i]) return false;
     }
     return true;
   }
@@ -75,16 +78,18 @@ struct Clipper {
 void crossings(const Clipper& c, const Flat& fa, const Flat& fb) {
   const std::size_t na = fa.at.size(), nb = fb.at.size();
   for (std::size_t i = 0; i < (na == 2 ? 1 : na); ++i) {
-    const std::size_t i1 = (i + 1) % na;
+    const std::size_t i1 = i + 1 < na ? i + 1 : 0;
     const Vector2d e = fa.at[i1] - fa.at[i];
     for (std::size_t j = 0; j < (nb == 2 ? 1 : nb); ++j) {
-      const std::size_t j1 = (j + 1) % nb;
+      const std::size_t j1 = j + 1 < nb ? j + 1 : 0;
       const Vector2d g = fb.at[j1] - fb.at[j], w = fb.at[j] - fa.at[i];
       const double cross = e.x() * g.y() - e.y() * g.x();
-      if (std::abs(cross) <= tolerance::inside_polygon * e.norm() * g.norm()) continue;
-      const double s = (w.x() * g.y() - w.y() * g.x()) / cross;
-      const double t = (w.x() * e.y() - w.y() * e.x()) / cross;
-      if (!(s > 0 && s < 1 && t > 0 && t < 1)) continue;
+      const double size = std::abs(cross), sign = cross < 0 ? -1 : 1;
+      if (size <= tolerance::inside_polygon * fa.length[i] * fb.length[j]) continue;
+      const double over_s = sign * (w.x() * g.y() - w.y() * g.x());
+      const double over_t = sign * (w.x() * e.y() - w.y() * e.x());
+      if (!(over_s > 0 && over_s < size && over_t > 0 && over_t < size)) continue;
+      const double s = over_s / size, t = over_t / size;
       c.add(fa.at[i] + s * e, fa.height[i] + s * (fa.height[i1] - fa.height[i]),
             fb.height[j] + t * (fb.height[j1] - fb.height[j]),
             feature::pair(c.a.edge_features[i], c.b.edge_features[j]));

@@ -32,11 +32,16 @@ void convex_convex(const Convex& a, const Convex& b, const Frame& b_in_a, double
 /// For few faces: separating axes while they overlap, convex_convex while apart.
 void polytope_polytope(const Polytope& a, const Polytope& b, const Frame& b_in_a, double margin,
                        std::vector<Manifold>& out);
+/// Of boxes: the same answer in closed form.
+void box_box(const Eigen::Vector3d& half_a, const Eigen::Vector3d& half_b, const Frame& b_in_a,
+             double margin, std::vector<Manifold>& out);
 /// The patch of two convex bodies once their separation is known.
 void patch_along(const Convex& a, const Convex& b, const Frame& b_in_a, const Separation& s,
                  double margin, std::vector<Manifold>& out);
 
 /// A ball at `centre` (in the frame of a).
+void ball_ball(double radius_a, const Eigen::Vector3d& centre, double radius, double margin,
+               std::vector<Manifold>& out);
 void box_ball(const Eigen::Vector3d& half, const Eigen::Vector3d& centre, double radius,
               double margin, std::vector<Manifold>& out);
 void surface_ball(const MeshSurface& a, const Eigen::Vector3d& centre, double radius, double margin,

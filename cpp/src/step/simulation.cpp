@@ -50,6 +50,7 @@ void measure_bodies(World& world) {
 
 void refresh_plan(World& world) {
   if (!world.plan_is_stale) return;
+  world.radius.clear();  // rows may have closed up
   world.plan = compile(world.scene, !world.requests.empty());
   if (!world.asleep.empty())
     std::erase_if(world.plan.movers, [&](int i) { return !world.states.moves[i]; });

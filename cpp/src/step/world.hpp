@@ -4,6 +4,7 @@
 
 #include "carom/broad/box_tree.hpp"
 #include "carom/contact/solver.hpp"
+#include "carom/geometry/frame.hpp"
 #include "carom/narrow/contacts.hpp"
 #include "carom/scene/scene.hpp"
 #include "carom/state/body_states.hpp"
@@ -68,6 +69,9 @@ struct World {
   std::vector<double> island_still;      ///< scratch: by lowest row
   std::vector<Contact> asleep_contacts;  ///< what they start from when they wake
   std::vector<Aabb> boxes;
+  std::vector<Frame> frames;        ///< of the bodies, as the step began
+  std::vector<double> radius;       ///< m, bounding radius of the shape; kept while rows stay
+  std::vector<double> swing;        ///< m that turning can carry a point of the body in the step
   std::vector<double> reach;        ///< m a point of the body can travel in the step
   BoxTree box_tree;                 ///< keeps the pairs of the step
   std::vector<Manifold> manifolds;  ///< of the pair at hand

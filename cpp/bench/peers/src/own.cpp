@@ -2,6 +2,7 @@
 // carom itself, through its public C++ API and with its defaults, as one more engine.
 #include <memory>
 #include <sstream>
+#include <string>
 
 #include "carom/carom.hpp"
 
@@ -37,6 +38,10 @@ struct Own : Engine {
     options.dt = def.dt;
     if (const auto i = def.opt.find("method"); i != def.opt.end())
       options.integrator = carom::integrator_named(i->second);
+    if (const auto i = def.opt.find("substeps"); i != def.opt.end())
+      options.contact.substeps = std::stoi(i->second);
+    if (const auto i = def.opt.find("sleep_after"); i != def.opt.end())
+      options.sleep_after = std::stod(i->second);
     scene.effects.push_back(carom::UniformGravity{eigen(def.gravity)});
   }
   void add(const BodyDef& def) override {

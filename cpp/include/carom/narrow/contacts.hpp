@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "carom/geometry/frame.hpp"
 #include "carom/geometry/shape.hpp"
 
 namespace carom {
@@ -29,6 +30,9 @@ struct Manifold {
 /// `margin` (m, >= 0) are left out. Allocates nothing once warm.
 void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin,
              std::vector<Manifold>& out);
+/// The same for poses whose rotations are matrices already.
+void collide(const Shape& a, const Frame& frame_a, const Shape& b, const Frame& frame_b,
+             double margin, std::vector<Manifold>& out);
 
 /// The manifold that holds the deepest point, for pairs that meet in one direction.
 [[nodiscard]] Manifold collide(const Shape& a, const Pose& pose_a, const Shape& b,

@@ -62,6 +62,15 @@ bool left_to_sweep(World& world, const BodyPair& pair, double restitution) {
   return w.fast[pair.a] || w.fast[pair.b];
 }
 
+/// How far apart two bodies may be and still meet in this step, m: what moves both alike counts
+/// not.
+double margin_of(const World& world, int a, int b) {
+  const BodyStates& s = world.states;
+  const double both = world.dt * (s.velocity[b] - s.velocity[a]).norm() + world.swing[a] +
+                      world.swing[b];
+  return tolerance::contact_margin + std::min(both, world.reach[a] + world.reach[b]);
+}
+
 }  // namespace
 
 void run_contacts(World& world) {
@@ -69,14 +78,19 @@ void run_contacts(World& world) {
   std::swap(world.contacts, world.contacts_before);
   world.contacts.clear();
   world.manifold_cache.begin_step();
+  const auto placed = [&](int i) {
+    const Eigen::Quaterniond q = world.states.orientation[i] * world.states.axes_b[i].conjugate();
+    return contact::ManifoldCache::Placed{world.scene.bodies[i].shape, world.frames[i], q};
+  };
   for (const BodyPair& pair : world.box_tree.pairs()) {
+    world.manifolds.clear();
+    world.manifold_cache.collide(
+        pair.a, pair.b, placed(pair.a), placed(pair.b), margin_of(world, pair.a, pair.b),
+        std::min(world.radius[pair.a], world.radius[pair.b]), world.manifolds);
+    if (world.manifolds.empty()) continue;
     const Scene::Body& a = world.scene.bodies[pair.a];
     const Scene::Body& b = world.scene.bodies[pair.b];
-    const double margin = tolerance::contact_margin + world.reach[pair.a] + world.reach[pair.b];
-    world.manifolds.clear();
-    const double reach = std::min(bounding_radius(a.shape), bounding_radius(b.shape));
-    world.manifold_cache.collide(pair.a, pair.b, a.shape, world.states.pose(pair.a), b.shape,
-                                 world.states.pose(pair.b), margin, reach, world.manifolds);
+    const double friction = std::sqrt(a.friction * b.friction);
     const double restitution = std::max(a.restitution, b.restitution);
     const bool swept = left_to_sweep(world, pair, restitution);
     for (const Manifold& m : world.manifolds)
@@ -89,7 +103,7 @@ void run_contacts(World& world) {
              .normal = m.normal,
              .position = p.position,
              .separation = p.separation,
-             .friction = std::sqrt(a.friction * b.friction),
+             .friction = friction,
              .restitution = restitution,
              .rolling_resistance = std::max(a.rolling_resistance, b.rolling_resistance),
              .spinning_resistance = std::max(a.spinning_resistance, b.spinning_resistance),
