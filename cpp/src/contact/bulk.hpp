@@ -111,7 +111,7 @@ struct BulkKernels {
   void (*prepare)(const BulkBatch&, const BulkContacts&);
   void (*warm_start)(const BulkBatch&);  ///< the contacts' first push
   void (*begin)(const BulkBatch&);       ///< forces, and the push of the small step before
-  void (*press)(const BulkBatch&);       ///< soft normals
+  void (*press)(const BulkBatch&);       ///< friction, then soft normals
   void (*move)(const BulkBatch&, double h);
   void (*relax)(const BulkBatch&);  ///< friction, then normals without push
   void (*end)(const BulkBatch&);

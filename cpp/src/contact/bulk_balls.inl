@@ -33,37 +33,26 @@ inline void warm_start_ball(const BulkBatch& batch, const BulkBall& row) {
 
 template <bool pressing>
 inline void sweep_ball(const BulkBatch& batch, BulkBall& row) {
+  Speeds a = gather_speeds(batch.bodies, row.a), b = gather_speeds(batch.bodies, row.b);
   const V3 n = load(row.normal);
   const V s = gap(batch, row, n), before = load(row.impulse);
   const Soft soft = softness_of(batch.soft, row.against_static);
-  const V inverse_h = splat(batch.inverse_h), push_speed = splat(-batch.push_speed);
-  if constexpr (pressing) {  // nothing turns: spins need not be fetched
-    V3 va, vb;
-    V ma, mb;
-    gather(batch.bodies, row.a, 0, va, ma);
-    gather(batch.bodies, row.b, 0, vb, mb);
-    const V u = dot(n, difference(vb, va));
-    const V after = pressed(true, s, u, before, load(row.mass), soft, inverse_h, push_speed);
-    store(row.impulse, after);
-    const V change = after - before;
-    scatter(batch.bodies, row.a, 0, add_times(va, -(ma * change), n), ma);
-    scatter(batch.bodies, row.b, 0, add_times(vb, mb * change, n), mb);
-  } else {
-    Speeds a = gather_speeds(batch.bodies, row.a), b = gather_speeds(batch.bodies, row.b);
-    const V3 slip = load(row.slip);
-    const V3 slip_after = within(add_times(slip, -load(row.tangent_step), slip_speed(a, b, row, n)),
-                                 before * load(row.friction));
-    // Friction is tangential, so the normal speed is what it was before it.
-    const V u = dot(n, difference(b.v, a.v));
-    const V after = pressed(false, s, u, before, load(row.mass), soft, inverse_h, push_speed);
-    push_ball(a, b, row, n, add_times(difference(slip_after, slip), after - before, n));
-    store(row.slip, slip_after);
-    store(row.impulse, after);
+  const V3 slip = load(row.slip);
+  const V3 slip_after = within(add_times(slip, -load(row.tangent_step), slip_speed(a, b, row, n)),
+                               before * load(row.friction));
+  // Friction is tangential, so the normal speed is what it was before it.
+  const V u = dot(n, difference(b.v, a.v));
+  const V after = pressed(pressing, s, u, before, load(row.mass), soft, splat(batch.inverse_h),
+                          splat(-batch.push_speed));
+  push_ball(a, b, row, n, add_times(difference(slip_after, slip), after - before, n));
+  store(row.slip, slip_after);
+  store(row.impulse, after);
+  if constexpr (!pressing) {
     store(row.total, load(row.total) + after);
     store(row.slip_total, sum(load(row.slip_total), slip_after));
-    scatter_speeds(batch.bodies, row.a, a);
-    scatter_speeds(batch.bodies, row.b, b);
   }
+  scatter_speeds(batch.bodies, row.a, a);
+  scatter_speeds(batch.bodies, row.b, b);
 }
 
 inline V unmet_ball(const BulkBatch& batch, const BulkBall& row) {

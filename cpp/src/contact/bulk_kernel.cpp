@@ -3,8 +3,6 @@
 
 #include "contact/bulk.hpp"
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // the vector type stays within this file
-
 namespace carom::contact {
 namespace portable {
 namespace {

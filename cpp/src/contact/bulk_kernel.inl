@@ -14,8 +14,8 @@ inline Soft softness_of(const BulkSoftness& soft, const Wide& against_static) {
 }
 
 /// Impulse of a normal after one soft (pressing) or rigid (not) step at gap `s`, speed `u`.
-[[gnu::always_inline]] inline V pressed(bool pressing, V s, V u, V before, V mass, const Soft& soft,
-                                        V inverse_h, V push_speed) {
+inline V pressed(bool pressing, V s, V u, V before, V mass, const Soft& soft, V inverse_h,
+                 V push_speed) {
   const V zero = splat(0), one = splat(1);
   const Mask apart = s > zero;
   if (pressing) {
@@ -90,7 +90,10 @@ inline void warm_start_row(const BulkBatch& batch, const BulkRow& row) {
   scatter_speeds(batch.bodies, row.b, b);
 }
 
-inline void rub(const BulkBatch& batch, BulkRow& row, const V3& n, Speeds& a, Speeds& b) {
+/// Friction of a patch. Pressing without it would let bodies slide on what presses them, and a heap
+/// would never be still; the impulse counts where the small step ends.
+inline void rub(const BulkBatch& batch, BulkRow& row, const V3& n, Speeds& a, Speeds& b,
+                bool count) {
   V bound = splat(0), twist_bound = splat(0);
   for (int k = 0; k < row.count; ++k) {
     const BulkPoint& p = batch.points[row.first + k];
@@ -113,8 +116,8 @@ inline void rub(const BulkBatch& batch, BulkRow& row, const V3& n, Speeds& a, Sp
   push_tangent(a, b, row, n, difference(after, before), splat(0));
   store(row.slip, after);
   store(row.twist, twist);
-  store(row.slip_total, sum(load(row.slip_total), after));
-  store(row.twist_total, load(row.twist_total) + twist);
+  if (count) store(row.slip_total, sum(load(row.slip_total), after));
+  if (count) store(row.twist_total, load(row.twist_total) + twist);
 }
 
 template <bool pressing>
@@ -123,7 +126,7 @@ inline void sweep_row(const BulkBatch& batch, BulkRow& row) {
   Speeds a = gather_speeds(batch.bodies, row.a), b = gather_speeds(batch.bodies, row.b);
   const V3 n = load(row.normal);
   const Motion motion(batch, row, n);
-  if constexpr (!pressing) rub(batch, row, n, a, b);
+  rub(batch, row, n, a, b, !pressing);
   const Soft soft = softness_of(batch.soft, row.against_static);
   for (int k = 0; k < row.count; ++k) {
     BulkPoint& p = batch.points[row.first + k];

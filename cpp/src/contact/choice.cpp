@@ -12,8 +12,15 @@
 namespace carom::contact {
 namespace {
 
-constexpr int few = 8, many = 16, most = 32;  // small steps
-constexpr int most_fine_bodies = 250;  // taller heaps are not quiet at 32 (pyramid of 30, measured)
+// Small steps: the least, the most of large islands, the most of those that can afford it.
+constexpr int few = 8, many = 16, most = 32;
+constexpr int most_fine_bodies = 500;
+// Large islands sink by a mean of soft_sink at most, fine ones by a quarter: twice the small steps.
+// Layers add their sinks up, and a wall leans by what one side sinks more than the other.
+constexpr double fine_share = 0.25;
+// An island keeps its small steps while what it would want now lies within these shares of them: a
+// heap whose stiffness changes with every step is never still.
+constexpr double keep_from = 0.75, keep_to = 1.15;
 constexpr int most_direct_bodies = 300;
 constexpr int newton_least = 40;  // a hit from rest takes up to 15 outer rounds of two or three
 
@@ -24,6 +31,7 @@ SinkEstimate soft_sink(const Islands& islands, const Island& island, const BodyS
                        const BodyFrames& frames, std::span<const Contact> contacts, double dt,
                        int substeps) {
   SinkEstimate sink;
+  int loaded = 0;
   for (int i = 0; i < island.patches; ++i) {
     const Patch& p = islands.patches[island.first_patch + i];
     const bool against_static = !states.moves[p.a] || !states.moves[p.b];
@@ -39,10 +47,22 @@ SinkEstimate soft_sink(const Islands& islands, const Island& island, const BodyS
       const double depth = force * w / (omega * omega);
       sink.worst = std::max(sink.worst, depth);
       sink.mean += depth;
+      ++loaded;
     }
   }
-  if (island.points > 0) sink.mean /= island.points;
+  if (loaded > 0) sink.mean /= loaded;
   return sink;
+}
+
+// The sink falls with the square of the number.
+int small_steps_for(const SinkEstimate& sink_at_few, int bodies, int before) {
+  const bool fine = bodies <= most_fine_bodies;
+  const double target = tolerance::soft_sink * (fine ? fine_share : 1);
+  // Set up at rest: the loads are not known yet, and sagging under too few would move it.
+  if (before == 0 && sink_at_few.mean == 0) return fine ? most : many;
+  const double wanted = few * std::sqrt(sink_at_few.mean / target);
+  if (before > 0 && wanted >= keep_from * before && wanted <= keep_to * before) return before;
+  return std::clamp(static_cast<int>(std::ceil(wanted)), few, fine ? most : many);
 }
 
 // Fill grows with the patches a body has: 2 blocks a body in a chain, 9 in a wall (measured).
@@ -56,13 +76,11 @@ Choice choose(const Islands& islands, const Island& island, const BodyStates& st
               const SolverOptions& options, const SolverMemory& memory, double& easy_budget) {
   Choice choice;
   const SinkEstimate sink = soft_sink(islands, island, states, frames, contacts, dt, few);
-  // Layers add their sinks up: where the mean is large the whole leans, unless the island is too
-  // large to afford better.
-  const bool fine = sink.mean > 0.75 * tolerance::soft_sink && island.bodies <= most_fine_bodies;
-  choice.substeps = options.substeps > 0                 ? options.substeps
-                    : sink.worst <= tolerance::soft_sink ? few
-                    : fine                               ? most
-                                                         : many;
+  int before = 0;
+  for (int i = 0; i < island.bodies; ++i)
+    before = std::max<int>(before, memory.substeps[islands.bodies[island.first_body + i]]);
+  choice.substeps =
+      options.substeps > 0 ? options.substeps : small_steps_for(sink, island.bodies, before);
   const double each = newton_seconds(island);
   choice.newton_cap = std::max(newton_least, static_cast<int>(4 * options.direct_budget / each));
   if (options.choice != SolverChoice::automatic) {

@@ -10,7 +10,8 @@
 
 namespace carom::contact {
 
-/// Sink that soft contacts of an island would have at rest under the loads its points carry now, m.
+/// Sink that soft contacts of an island would have at rest under the loads its points carry now, m;
+/// the mean is of those that carry any.
 struct SinkEstimate {
   double worst = 0, mean = 0;
 };

@@ -29,6 +29,7 @@ void SolverMemory::resize(int n) {
   newton.resize(n, 4);
   held_off.resize(n, 0);
   direct.resize(n, 0);
+  substeps.resize(n, 0);
   island.resize(n, -1);
 }
 
@@ -37,6 +38,7 @@ void SolverMemory::erase(int i) {
   newton.erase(newton.begin() + i);
   held_off.erase(held_off.begin() + i);
   direct.erase(direct.begin() + i);
+  substeps.erase(substeps.begin() + i);
   island.erase(island.begin() + i);
 }
 
@@ -118,6 +120,7 @@ SolveOutcome ContactSolver::solve(BodyStates& states, const Array3& velocity_bef
     for (int i = 0; i < island.bodies; ++i) {
       const int row = w.islands.bodies[island.first_body + i];
       memory.direct[row] = solved;
+      memory.substeps[row] = static_cast<std::uint8_t>(solved ? 0 : std::min(choice.substeps, 255));
       memory.island[row] = w.islands.bodies[island.first_body];
       // A running mean that fades while it is not used: what one cold start took must neither
       // decide alone nor for ever.

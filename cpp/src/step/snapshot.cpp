@@ -12,7 +12,7 @@
 namespace carom {
 namespace {
 
-constexpr std::uint32_t format = 2;  // raised whenever the list below changes
+constexpr std::uint32_t format = 3;  // raised whenever the list below changes
 
 struct Writer {
   std::string bytes;
@@ -126,6 +126,7 @@ void everything(Io& io, W& world) {
   io.array(world.solver.memory.newton);
   io.array(world.solver.memory.held_off);
   io.array(world.solver.memory.direct);
+  io.array(world.solver.memory.substeps);
   io.array(world.solver.memory.island);
   io.array(world.manifold_cache.pairs);
   io.array(world.manifold_cache.points);

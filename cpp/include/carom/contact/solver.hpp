@@ -20,8 +20,8 @@ enum class SolverChoice : std::uint8_t {
 
 struct SolverOptions {
   SolverChoice choice = SolverChoice::automatic;
-  int substeps = 0;         ///< of the small-step solver; 0: 8, or 16 where 8 would sink too far
-  double tolerance = 1e-7;  ///< m/s, residual at which the direct solver stops
+  int substeps = 0;             ///< of the small-step solver; 0: 8 to 32, by the sink expected
+  double tolerance = 1e-7;      ///< m/s, residual at which the direct solver stops
   double direct_budget = 2e-3;  ///< s, estimated, that a direct solve of a hard island may take
 };
 
@@ -48,8 +48,8 @@ struct SolverMemory {
   std::vector<std::uint16_t> newton;   ///< Newton steps of the last direct solve of its island
   std::vector<std::uint8_t> held_off;  ///< steps for which its island stays with small steps
   std::vector<std::uint8_t> direct;    ///< 1 where the last solve was direct
-
-  std::vector<std::int32_t> island;  ///< lowest row of its island in the last solve, -1 without
+  std::vector<std::uint8_t> substeps;  ///< small steps of its island in the last solve, 0 without
+  std::vector<std::int32_t> island;    ///< lowest row of its island in the last solve, -1 without
 
   void resize(int n);
   void erase(int i);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "carom/numerics/tolerance.hpp"
@@ -16,23 +18,56 @@ auto pair_of(const Contact& c) {
   return std::pair(c.a, c.b);
 }
 
-void start_from(Contact& c, const Contact& old) {
-  c.impulse = old.impulse_at_end;
-  c.turning_impulse = old.turning_impulse;
+constexpr std::size_t taken = static_cast<std::size_t>(-1);
+
+/// A point whose features no longer meet leaves its load to the nearest point of the pair, one
+/// without load of its own first: a heap that drops what single points carried is never at rest.
+void inherit(std::span<Contact> now, std::span<const Contact> old,
+             std::span<const std::size_t> heir_of) {
+  for (std::size_t k = 0; k < old.size(); ++k) {
+    if (heir_of[k] == taken) continue;
+    Contact* heir = nullptr;
+    double best = std::numeric_limits<double>::infinity();
+    for (Contact& c : now) {
+      if (!(old[k].impulse_at_end.dot(c.normal) > 0)) continue;
+      const double d = (c.position - old[k].position).squaredNorm();
+      const bool free = c.impulse.isZero(0), free_before = heir && heir->impulse.isZero(0);
+      if (heir && free_before && !free) continue;
+      if (heir && free == free_before && d >= best) continue;
+      heir = &c, best = d;
+    }
+    if (heir) heir->impulse += old[k].impulse_at_end;
+  }
 }
 
 /// Contacts that met a step ago start from the impulse they ended with: the same two features of
 /// the same two bodies. Both lists ascend by pair.
 void warm_start(World& world) {
   const std::vector<Contact>& old = world.contacts_before;
-  std::size_t first = 0;
-  for (Contact& c : world.contacts) {
-    while (first < old.size() && pair_of(old[first]) < pair_of(c)) ++first;
-    for (std::size_t k = first; k < old.size() && pair_of(old[k]) == pair_of(c); ++k)
-      if (old[k].feature == c.feature) {
-        start_from(c, old[k]);
-        break;
+  std::vector<Contact>& now = world.contacts;
+  std::size_t first = 0, last = 0;
+  for (std::size_t i = 0, end = 0; i < now.size(); i = end) {
+    const auto pair = pair_of(now[i]);
+    for (end = i; end < now.size() && pair_of(now[end]) == pair;) ++end;
+    while (first < old.size() && pair_of(old[first]) < pair) ++first;
+    for (last = first; last < old.size() && pair_of(old[last]) == pair;) ++last;
+    world.warm.assign(last - first, 0);
+    bool any_left = false;
+    for (std::size_t k = first; k < last; ++k) {
+      const auto same = std::find_if(now.begin() + i, now.begin() + end,
+                                     [&](const Contact& c) { return c.feature == old[k].feature; });
+      if (same == now.begin() + end) {
+        any_left |= !old[k].impulse_at_end.isZero(0);
+        continue;
       }
+      same->impulse = old[k].impulse_at_end;
+      same->turning_impulse = old[k].turning_impulse;
+      world.warm[k - first] = taken;
+    }
+    if (any_left)
+      inherit(std::span(now).subspan(i, end - i), std::span(old).subspan(first, last - first),
+              world.warm);
+    first = last;
   }
 }
 
