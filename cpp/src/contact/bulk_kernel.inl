@@ -92,8 +92,8 @@ inline void warm_start_row(const BulkBatch& batch, const BulkRow& row) {
 
 /// Friction of a patch. Pressing without it would let bodies slide on what presses them, and a heap
 /// would never be still; the impulse counts where the small step ends.
-inline void rub(const BulkBatch& batch, BulkRow& row, const V3& n, Speeds& a, Speeds& b,
-                bool count) {
+[[gnu::always_inline]] inline void rub(const BulkBatch& batch, BulkRow& row, const V3& n, Speeds& a,
+                                       Speeds& b, bool count) {
   V bound = splat(0), twist_bound = splat(0);
   for (int k = 0; k < row.count; ++k) {
     const BulkPoint& p = batch.points[row.first + k];

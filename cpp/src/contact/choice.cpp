@@ -13,7 +13,7 @@ namespace carom::contact {
 namespace {
 
 // Small steps: the least, the most of large islands, the most of those that can afford it.
-constexpr int few = 8, many = 16, most = 32;
+constexpr int few = 8, many = 12, most = 32;
 constexpr int most_fine_bodies = 500;
 // Large islands sink by a mean of soft_sink at most, fine ones by a quarter: twice the small steps.
 // Layers add their sinks up, and a wall leans by what one side sinks more than the other.

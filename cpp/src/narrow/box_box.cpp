@@ -142,7 +142,7 @@ void box_box(const Vector3d& half_a, const Vector3d& half_b, const Frame& b_in_a
     double least = std::numeric_limits<double>::infinity();
     for (const ContactPoint& p : points) least = std::min(least, p.separation);
     // Where no point of the patch is as near as the axis says, others are nearer: search for them.
-    if (least > best.separation + tolerance::equally_deep * size)
+    if (least > best.separation + bias)
       return convex_convex(Convex::hull(scratch_polytope(Box{2 * half_a}, 0)),
                            Convex::hull(scratch_polytope(Box{2 * half_b}, 1)), b_in_a, margin, out);
   }

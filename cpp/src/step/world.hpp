@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <vector>
 
 #include "carom/broad/box_tree.hpp"
@@ -40,6 +41,14 @@ struct SimulatedClock {
   }
 };
 
+/// For how long a body has stayed near a place. Measured by where it is, not by its speed: what
+/// trembles in a heap comes to rest, what creeps on does not.
+struct Still {
+  double seconds = 0;
+  std::array<double, 3> position{};     ///< m
+  std::array<double, 4> orientation{};  ///< x y z w
+};
+
 /// What the stages of a step share. Scratch keeps its capacity: a warm step allocates nothing.
 struct World {
   Scene scene;
@@ -65,7 +74,7 @@ struct World {
   contact::ManifoldCache manifold_cache;
   std::vector<std::uint8_t> asleep;      ///< by row; empty while nothing sleeps
   std::vector<std::int32_t> bed;         ///< by row: the island it fell asleep with
-  std::vector<double> still;             ///< s, by row: time below the speed of sleep
+  std::vector<Still> still;              ///< by row
   std::vector<double> island_still;      ///< scratch: by lowest row
   std::vector<Contact> asleep_contacts;  ///< what they start from when they wake
   std::vector<Aabb> boxes;

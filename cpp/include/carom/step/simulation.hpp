@@ -22,8 +22,8 @@ struct SimulationOptions {
   double dt = 1.0 / 60;                               ///< s, > 0; the largest step taken
   Integrator integrator = Integrator::symmetric_top;  ///< of rotations
   SolverOptions contact{};
-  /// s, for which all bodies of an island must be slower than `sleep_speed` before they rest
-  /// without cost until touched; infinite: never.
+  /// s, for which all bodies of an island must be slower than `sleep_speed` on average before they
+  /// rest without cost until touched; infinite: never.
   double sleep_after = std::numeric_limits<double>::infinity();
   /// After each step looks at all ways again with the exact predicates of moving corners and edges:
   /// no core of a body has passed through a surface. Slow; the report counts what it finds.

@@ -14,9 +14,33 @@
 namespace carom {
 namespace {
 
+constexpr double trembling = 5;  // times the speed of sleep that a body may have at an instant
+
 double fastest_point(const World& world, int i) {
   return world.states.velocity[i].norm() +
          world.states.angular_velocity(i).norm() * bounding_radius(world.scene.bodies[i].shape);
+}
+
+/// m, of its fastest point since `still` began.
+double moved(const World& world, int i, const Still& still) {
+  const Eigen::Vector3d then(still.position.data());
+  const Eigen::Quaterniond before(still.orientation.data());  // x y z w
+  const Eigen::Quaterniond turn = before.conjugate() * world.states.orientation[i];
+  return (world.states.position[i] - then).norm() +
+         2 * turn.vec().norm() * bounding_radius(world.scene.bodies[i].shape);
+}
+
+void watch(World& world, int i) {
+  Still& still = world.still[i];
+  const SimulationOptions& o = world.options;
+  if (moved(world, i, still) <= o.sleep_speed * o.sleep_after &&
+      fastest_point(world, i) < trembling * o.sleep_speed) {
+    still.seconds += world.dt;
+    return;
+  }
+  const Eigen::Vector3d x = world.states.position[i];
+  const Eigen::Vector4d q = world.states.orientation[i].coeffs();
+  still = {0, {x[0], x[1], x[2]}, {q[0], q[1], q[2], q[3]}};
 }
 
 bool sleeps(const World& world, int i) {
@@ -38,15 +62,15 @@ void lay_down(World& world, int i, std::int32_t bed) {
 void fall_asleep(World& world) {
   if (!(world.options.sleep_after < std::numeric_limits<double>::infinity())) return;
   const int n = world.states.size();
-  world.asleep.resize(n, 0), world.bed.resize(n, -1), world.still.resize(n, 0);
+  world.asleep.resize(n, 0), world.bed.resize(n, -1), world.still.resize(n);
   const std::vector<std::int32_t>& island = world.solver.memory.island;
   // The least still body decides for its island: its time is kept at the island's lowest row.
   world.island_still.assign(n, std::numeric_limits<double>::infinity());
   for (const int i : world.plan.movers) {
-    world.still[i] =
-        fastest_point(world, i) < world.options.sleep_speed ? world.still[i] + world.dt : 0.0;
+    watch(world, i);
     if (i < static_cast<int>(island.size()) && island[i] >= 0)
-      world.island_still[island[i]] = std::min(world.island_still[island[i]], world.still[i]);
+      world.island_still[island[i]] =
+          std::min(world.island_still[island[i]], world.still[i].seconds);
   }
   bool any = false;
   for (const int i : world.plan.movers) {
@@ -76,7 +100,7 @@ void wake(World& world, int row) {
     if (!wakes(i)) continue;
     world.states.moves[i] = 1;
     world.plan.movers.push_back(i);
-    world.still[i] = 0;
+    world.still[i] = {};
     world.bed[i] = -1;
     world.asleep[i] = 0;
   }

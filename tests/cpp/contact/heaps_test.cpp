@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heaps and walls of many bodies: they stand, come to rest and sleep.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "contact/stage.hpp"
+
+namespace carom {
+namespace {
+
+Scene heap(int n, int seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> any(-1, 1);
+  Scene scene = stage::ground();
+  for (int i = 0; i < n; ++i) {
+    BodyDefinition body = stage::box(
+        {0.7 * (i % 5) + 0.02 * any(random), 0.7 * (i / 5 % 5), 0.5 + 0.75 * (i / 25)}, 0.5);
+    body.pose.orientation =
+        Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();
+    scene.add(body);
+  }
+  return scene;
+}
+
+TEST(Heap, RestsAndSleeps) {
+  SimulationOptions options;
+  options.sleep_after = 0.5;
+  Simulation simulation(heap(125, 1), options);
+  simulation.advance(15);
+  EXPECT_EQ(simulation.report().contact.asleep, 125);
+  EXPECT_EQ(simulation.energy().kinetic, 0);
+  EXPECT_TRUE(simulation.report().frozen.empty());
+}
+
+// Never asleep: what moves on is tremor. 1 mm/s is a tenth of the speed of sleep.
+TEST(Heap, CalmsDownAwake) {
+  Simulation simulation(heap(125, 2));
+  simulation.advance(15);
+  std::vector<double> speeds;
+  for (int i = 1; i < simulation.size(); ++i)
+    speeds.push_back(simulation.states().velocity[i].norm());
+  std::ranges::nth_element(speeds, speeds.begin() + 62);
+  EXPECT_LT(speeds[62], 1e-3);
+  double overlap = 0;
+  int touching = 0;
+  for (const Contact& c : simulation.contacts())
+    if (c.separation < 0) overlap -= c.separation, ++touching;
+  ASSERT_GT(touching, 125);
+  EXPECT_LT(overlap / touching, 5e-4);  // the mark of the piles
+}
+
+// 465 bodies: too many for a direct solve, few enough for finer small steps.
+TEST(Pyramid, Of30StandsForFiveSeconds) {
+  Scene scene = stage::ground();
+  for (int row = 0; row < 30; ++row)
+    for (int i = 0; i < 30 - row; ++i)
+      scene.add(stage::box({1.02 * (i - 0.5 * (29 - row)), 0, 0.5 + row}, 1.0));
+  Simulation simulation(std::move(scene));
+  const int top = simulation.size() - 1;
+  const Eigen::Vector3d start = simulation.states().position[top];
+  const stage::Stood stood = stage::stand(simulation, 5);
+  EXPECT_LT((simulation.states().position[top] - start).head<2>().norm(), 1e-3);
+  EXPECT_LT(stood.overlap, 5e-4);
+}
+
+}  // namespace
+}  // namespace carom
