@@ -85,6 +85,7 @@ struct World {
   BoxTree box_tree;                 ///< keeps the pairs of the step
   std::vector<Manifold> manifolds;  ///< of the pair at hand
   std::vector<Contact> contacts, contacts_before;
+  std::vector<std::size_t> warm;    ///< scratch of warm starts
   SweepWork sweep;
 };
 
