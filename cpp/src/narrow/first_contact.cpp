@@ -232,7 +232,7 @@ struct Search {
 }  // namespace
 
 FirstContact first_contact(const Shape& a, const BodyPath& path_a, const Shape& b,
-                           const BodyPath& path_b, double from, double end) {
+                           const BodyPath& path_b, double from, double end, double deepest) {
   thread_local std::vector<Leaf> of_a, of_b;
   of_a.clear(), of_b.clear();
   take_apart(a, {}, path_a, of_a);
@@ -241,9 +241,10 @@ FirstContact first_contact(const Shape& a, const BodyPath& path_a, const Shape& 
   now.only_now = true;
   now.run(of_a, of_b);
   Search search{path_a, path_b, from, end};
-  search.target = now.best.gap > 1.5 * tolerance::sweep_clear
-                      ? tolerance::sweep_clear
-                      : now.best.gap - tolerance::sweep_slop;
+  const double left = 1 + std::min(now.best.gap, 0.0) / deepest;
+  const double slop = tolerance::sweep_slop * std::max(left, tolerance::sweep_least_slop);
+  search.target =
+      now.best.gap > 1.5 * tolerance::sweep_clear ? tolerance::sweep_clear : now.best.gap - slop;
   search.best.time = end;
   search.run(of_a, of_b);
   search.best.gap = std::min(search.best.gap, now.best.gap);

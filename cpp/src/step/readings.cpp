@@ -15,6 +15,13 @@ void require_room(std::span<const double> out, int rows, int columns) {
 
 }  // namespace
 
+Eigen::Vector3d gravity_of(const World& world) {
+  Eigen::Vector3d g = Eigen::Vector3d::Zero();
+  for (const Effect& effect : world.scene.effects)
+    if (const auto* gravity = std::get_if<UniformGravity>(&effect)) g += gravity->acceleration;
+  return g;
+}
+
 void Simulation::poses(std::span<double> out) const {
   require_room(out, size(), 7);
   for (int i = 0; i < size(); ++i) {
@@ -35,9 +42,7 @@ void Simulation::twists(std::span<double> out) const {
 
 Energy Simulation::energy() const {
   Energy energy{.dissipated = world_->dissipated, .work = world_->work};
-  Eigen::Vector3d g = Eigen::Vector3d::Zero();
-  for (const Effect& effect : world_->scene.effects)
-    if (const auto* gravity = std::get_if<UniformGravity>(&effect)) g += gravity->acceleration;
+  const Eigen::Vector3d g = gravity_of(*world_);
   for (int i = 0; i < size(); ++i) {
     energy.kinetic += world_->states.kinetic_energy(i);
     energy.potential -= world_->states.mass[i] * g.dot(world_->states.position[i]);

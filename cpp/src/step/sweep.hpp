@@ -37,6 +37,7 @@ struct SweepWork {
   Array3 position_before;          ///< where the step began
   Array4 orientation_before;
   std::vector<BodyPath> paths;      ///< by row, of this step
+  Array3 pull;                      ///< m/s^2, by row: what acts on it once nothing holds it
   Array3 torque;                    ///< N m, by row: rate of the angular momentum over the step
   std::vector<std::uint8_t> waits;  ///< by row: stays where it is until the step ends
   std::vector<int> version, hits;   ///< by row

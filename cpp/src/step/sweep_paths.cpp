@@ -63,6 +63,23 @@ void lay_arcs(const World& world, int i, double t0, const Quaterniond& q0, const
   }
 }
 
+/// Angular momentum at time t of a path, turned by what the path's arc strays from the free motion:
+/// seen from the body it is the true one, so the energy of rotation is, however unequal the
+/// moments. Where contacts turned the body the momentum it ends with is taken.
+Vector3d momentum_at(const World& world, int i, double t, const Quaterniond& at) {
+  const BodyStates& s = world.states;
+  const SweepWork& w = world.sweep;
+  const Vector3d l = s.angular_momentum[i] - (world.dt - t) * w.torque[i];
+  if (turns_evenly(s, i)) return l;
+  const BodyPath& path = w.paths[i];
+  if (path.start == 0 && world.plan.runs(StageKind::solve) && world.solver.motion().decided[i])
+    return at * (s.orientation[i].conjugate() * l);
+  const BodyPath::Arc& arc = path.arc_at(t);
+  const Quaterniond from = arc.orientation * s.axes_b[i];
+  const Quaterniond free = turned(world, from, l, s.inverse_moments[i], t - arc.time);
+  return at * (free.conjugate() * l);
+}
+
 }  // namespace
 
 void lay_paths(World& world) {
@@ -70,7 +87,8 @@ void lay_paths(World& world) {
   const BodyStates& s = world.states;
   const int n = s.size();
   w.paths.resize(n);
-  w.torque.x.assign(n, 0), w.torque.y.assign(n, 0), w.torque.z.assign(n, 0);
+  for (Array3* a : {&w.torque, &w.pull}) a->x.assign(n, 0), a->y.assign(n, 0), a->z.assign(n, 0);
+  const Vector3d gravity = gravity_of(world);
   const bool solved = world.plan.runs(StageKind::solve);
   for (int i = 0; i < n; ++i) {
     BodyPath& path = w.paths[i];
@@ -82,12 +100,15 @@ void lay_paths(World& world) {
       path.arcs.assign(1, {0, s.orientation[i] * s.axes_b[i].conjugate(), Vector3d::Zero()});
       continue;
     }
+    // The parabola that gets there with the velocity it ends with: the true one in free flight, and
+    // one whose speed fits its way where contacts pushed.
+    const Vector3d mean = (s.position[i] - path.centre) / world.dt;
+    path.acceleration = 2 / world.dt * (s.velocity[i] - mean);
+    path.velocity = 2 * mean - s.velocity[i];
     const bool pushed = solved && world.solver.motion().decided[i];
-    if (!pushed) {
-      path.acceleration = (s.velocity[i] - world.velocity_before[i]) / world.dt;
+    w.pull.set(i, pushed ? gravity : path.acceleration);
+    if (!pushed)
       w.torque.set(i, (s.angular_momentum[i] - world.angular_momentum_before[i]) / world.dt);
-    }
-    path.velocity = (s.position[i] - path.centre) / world.dt - 0.5 * world.dt * path.acceleration;
     const Quaterniond q1 = s.orientation[i];
     lay_arcs(world, i, 0, w.orientation_before[i], &q1, path);
   }
@@ -98,12 +119,13 @@ void go_to(World& world, int i, double t) {
   if (!s.moves[i]) return;
   SweepWork& w = world.sweep;
   const BodyPath& path = w.paths[i];
-  const double rest = world.dt - t;
+  const Quaterniond at = (path.pose_at(t).orientation * s.axes_b[i]).normalized();
   s.position.set(i, path.centre_at(t));
-  s.orientation.set(i, (path.pose_at(t).orientation * s.axes_b[i]).normalized());
-  if (w.waits[i]) return;
-  s.velocity.set(i, s.velocity[i] - rest * path.acceleration);
-  s.angular_momentum.set(i, s.angular_momentum[i] - rest * w.torque[i]);
+  if (!w.waits[i]) {
+    s.velocity.set(i, s.velocity[i] - (world.dt - t) * path.acceleration);
+    s.angular_momentum.set(i, momentum_at(world, i, t, at));
+  }
+  s.orientation.set(i, at);
 }
 
 void lay_path(World& world, int i, double t, const Vector3d& acceleration) {

@@ -87,19 +87,55 @@ double stop_point(World& world, const Contact& c) {
   return before - after;
 }
 
+double mechanical_energy(const World& world, const SweepEvent& event, const Vector3d& gravity) {
+  const BodyStates& s = world.states;
+  double sum = 0;
+  for (const int row : {event.a, event.b})
+    if (s.moves[row]) sum += s.kinetic_energy(row) - s.mass[row] * gravity.dot(s.position[row]);
+  return sum;
+}
+
+/// Contacts of the solver act over the whole step, so a body they push has at a time within it no
+/// speed that is quite its own. What a hit then adds to the energy by its timing is taken back from
+/// the motion about the common centre: momentum stays.
+void take_back(World& world, const SweepEvent& event, const Vector3d& gravity, double allowed) {
+  BodyStates& s = world.states;
+  const double energy = mechanical_energy(world, event, gravity), excess = energy - allowed;
+  const bool both = s.moves[event.a] && s.moves[event.b];
+  const double ma = s.mass[event.a], mb = s.mass[event.b];
+  const Vector3d common =
+      both ? Vector3d((ma * s.velocity[event.a] + mb * s.velocity[event.b]) / (ma + mb))
+           : Vector3d::Zero();
+  double kinetic = both ? -0.5 * (ma + mb) * common.squaredNorm() : 0;
+  for (const int row : {event.a, event.b})
+    if (s.moves[row]) kinetic += s.kinetic_energy(row);
+  if (!(excess > tolerance::hit_residual * std::abs(energy)) || !(kinetic > 0)) return;
+  const double share = std::sqrt(std::max(0.0, 1 - excess / kinetic));
+  for (const int row : {event.a, event.b}) {
+    if (!s.moves[row]) continue;
+    s.velocity.set(row, common + share * (s.velocity[row] - common));
+    s.angular_momentum.set(row, share * s.angular_momentum[row]);
+  }
+}
+
 }  // namespace
 
 void strike(World& world, const SweepEvent& event) {
   SweepWork& w = world.sweep;
   BodyStates& s = world.states;
   const double t = event.contact.time;
-  for (const int row : {event.a, event.b}) {
-    wake(world, row);
-    go_to(world, row, t);
-  }
+  const Vector3d gravity = gravity_of(world);
+  const auto pushed = [&](int row) {
+    return world.plan.runs(StageKind::solve) && world.solver.motion().decided[row];
+  };
+  const bool timed_by_step = pushed(event.a) || pushed(event.b);
+  const double dissipated_before = world.dissipated;
+  for (const int row : {event.a, event.b}) wake(world, row);
+  const double energy = mechanical_energy(world, event, gravity);
+  for (const int row : {event.a, event.b}) go_to(world, row, t);
   find_points(world, event);
   const Vector3d& n = event.contact.normal;
-  Vector3d pull_a = w.paths[event.a].acceleration, pull_b = w.paths[event.b].acceleration;
+  Vector3d pull_a = w.pull[event.a], pull_b = w.pull[event.b];
   const double closing = std::max(0.0, n.dot(pull_a - pull_b));
   settle_slow(w, closing, world.dt, s);
   w.frames.resize(s.size());
@@ -115,17 +151,22 @@ void strike(World& world, const SweepEvent& event) {
     if (-c.normal.dot(relative_velocity(s, c)) > tolerance::sweep_still)
       world.dissipated += stop_point(world, c);
 
-  // What rests on the other for the remainder of the step is held up by it.
-  Contact meeting{.a = event.a, .b = event.b, .normal = n, .position = event.contact.point};
+  // What comes to rest on the other is held up by it for the remainder of the step. Not what turns
+  // about the point they touch at: holding up a centre that moves would lift it for nothing.
+  const Contact meeting{.a = event.a, .b = event.b, .normal = n, .position = event.contact.point};
   const double leaving = n.dot(relative_velocity(s, meeting));
+  const double between_centres = n.dot(s.velocity[event.b] - s.velocity[event.a]);
   const double masses = (s.moves[event.a] ? s.inverse_mass[event.a] : 0) +
                         (s.moves[event.b] ? s.inverse_mass[event.b] : 0);
-  if (masses > 0 && leaving <= 0.5 * closing * (world.dt - t)) {
+  const double slow = 0.5 * closing * (world.dt - t);
+  if (masses > 0 && leaving <= slow && std::abs(between_centres) <= slow) {
     if (s.moves[event.a]) pull_a -= s.inverse_mass[event.a] / masses * closing * n;
     if (s.moves[event.b]) pull_b += s.inverse_mass[event.b] / masses * closing * n;
   }
   lay_path(world, event.a, t, pull_a);
   lay_path(world, event.b, t, pull_b);
+  if (timed_by_step)
+    take_back(world, event, gravity, energy - (world.dissipated - dissipated_before));
 }
 
 }  // namespace carom

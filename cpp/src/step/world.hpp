@@ -85,10 +85,12 @@ struct World {
   BoxTree box_tree;                 ///< keeps the pairs of the step
   std::vector<Manifold> manifolds;  ///< of the pair at hand
   std::vector<Contact> contacts, contacts_before;
-  std::vector<std::size_t> warm;    ///< scratch of warm starts
+  std::vector<std::size_t> warm;  ///< scratch of warm starts
   SweepWork sweep;
 };
 
+/// Of all UniformGravity effects, m/s^2.
+[[nodiscard]] Eigen::Vector3d gravity_of(const World& world);
 /// Rotation vector of the spring's body from its rest, rad, world axes.
 [[nodiscard]] Eigen::Vector3d twist_of(const World& world, const TorsionSpring& spring);
 

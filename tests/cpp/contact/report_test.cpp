@@ -73,7 +73,9 @@ TEST(ContactReport, SaysWhatTheContactsSay) {
     EXPECT_EQ(one.contact.islands, 2);
     EXPECT_EQ(one.contact.direct_islands, choice == SolverChoice::direct ? 2 : 0);
     EXPECT_EQ(one.contact.direct_bodies, choice == SolverChoice::direct ? 9 : 0);
-    if (choice == SolverChoice::small_steps) EXPECT_GE(one.contact.iterations, 8);
+    if (choice == SolverChoice::small_steps) {
+      EXPECT_GE(one.contact.iterations, 8);
+    }
   }
 }
 

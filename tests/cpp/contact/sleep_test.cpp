@@ -29,8 +29,9 @@ TEST(Sleep, LeavesNothingToSolve) {
   EXPECT_EQ(simulation.report().contact.iterations, iterations);
   EXPECT_EQ(simulation.contacts().size(), 0u);
   for (const Stage& stage : simulation.plan().stages)
-    if (stage.on && stage.kind == StageKind::integrate)
+    if (stage.on && stage.kind == StageKind::integrate) {
       EXPECT_EQ(simulation.plan().movers.size(), 0u);
+    }
   for (int i = 0; i < simulation.size(); ++i) EXPECT_EQ(simulation.states().position[i], before[i]);
 }
 

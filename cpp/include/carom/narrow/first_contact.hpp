@@ -6,6 +6,7 @@
 
 #include "carom/geometry/shape.hpp"
 #include "carom/narrow/body_path.hpp"
+#include "carom/numerics/tolerance.hpp"
 
 namespace carom {
 
@@ -27,15 +28,17 @@ struct FirstContact {
 /// First time in [from, end] at which two moving bodies touch, rotation included.
 ///
 /// They may come as near as tolerance::sweep_clear; a pair that is nearer at `from` already (it
-/// rests, or was just hit) may come nearer by tolerance::sweep_slop. Between two looks the gap
-/// along a fixed direction n is bounded from below in two ways: no point closes faster than the
-/// speeds say (Mirtich's conservative advancement), and, since the support of a turning body along
-/// n is a maximum of points whose acceleration is at most w^2 r, it dips below its chord by at most
-/// w^2 r h^2 / 8. So whatever is stepped over is free of contact: never a miss.
-/// Convex parts ask exact distances; surfaces are taken triangle by triangle, from both sides, so
-/// sheets without thickness hold. Distance grids move no faster than their gap allows.
+/// rests, or was just hit) may come nearer by tolerance::sweep_slop, the less the more of `deepest`
+/// (m) it overlaps already: whatever happens, it does not sink deeper step after step. Between two
+/// looks the gap along a fixed direction n is bounded from below in two ways: no point closes
+/// faster than the speeds say (Mirtich's conservative advancement), and, since the support of a
+/// turning body along n is a maximum of points whose acceleration is at most w^2 r, it dips below
+/// its chord by at most w^2 r h^2 / 8. So whatever is stepped over is free of contact: never a
+/// miss. Convex parts ask exact distances; surfaces are taken triangle by triangle, from both
+/// sides, so sheets without thickness hold. Distance grids move no faster than their gap allows.
 /// Source: B. Mirtich, PhD thesis, UC Berkeley 1996; the second bound is ours.
 [[nodiscard]] FirstContact first_contact(const Shape& a, const BodyPath& path_a, const Shape& b,
-                                         const BodyPath& path_b, double from, double end);
+                                         const BodyPath& path_b, double from, double end,
+                                         double deepest = tolerance::sweep_deepest);
 
 }  // namespace carom

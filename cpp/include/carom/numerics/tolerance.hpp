@@ -285,6 +285,15 @@ inline constexpr double sweep_clear = 1e-6;
 /// one pair in a step keep its overlap below 0.1 mm.
 inline constexpr double sweep_slop = 1e-5;
 
+/// Overlap at which sweep_slop has run out, m, and the share of an inner radius it may not exceed.
+/// Choice: twice what soft contacts sink at rest (soft_sink), and a tenth of the body.
+inline constexpr double sweep_deepest = 8e-4;
+inline constexpr double sweep_deepest_share = 0.1;
+
+/// Share of sweep_slop that is always left, so that what overlaps can turn and leave: 10 nm. A body
+/// jammed for a minute at 60 Hz sinks 36 um by it.
+inline constexpr double sweep_least_slop = 1e-3;
+
 /// Contact points farther apart than this are left to the sweep where a body is fast, m: more than
 /// a hit leaves (sweep_clear) and than a pair that was hit may use up (sweep_slop).
 inline constexpr double sweep_touch = 2e-5;
@@ -311,10 +320,9 @@ inline constexpr double sweep_still = 1e-7;
 /// interpolated distance grows at up to sqrt(3) times the way.
 inline constexpr double sdf_stride = 0.5;
 
-/// rad: the longest arc of a path between two orientations of a body that is not a ball. Choice:
-/// far from pi, where the shortest arc would go the wrong way round, and the way a top wobbles
-/// between them is covered by its own sub-steps of the same length.
-inline constexpr double sweep_arc = 0.5;
+/// rad: the longest arc of a path between two orientations of a body that is not a ball. Choice: a
+/// top strays from it by no more than angle^2 / 8 times the asymmetry of its moments, 1e-3 rad.
+inline constexpr double sweep_arc = 0.1;
 
 /// The plain float method calls points closer than this a contact, m. Choice: the usual 1e-6 (as in
 /// Bridson 2002 and in Tight-Inclusion's default), absolute as theirs is: that is its weakness.

@@ -101,8 +101,8 @@ bool left_to_sweep(World& world, const BodyPair& pair, double restitution) {
 /// not.
 double margin_of(const World& world, int a, int b) {
   const BodyStates& s = world.states;
-  const double both = world.dt * (s.velocity[b] - s.velocity[a]).norm() + world.swing[a] +
-                      world.swing[b];
+  const double both =
+      world.dt * (s.velocity[b] - s.velocity[a]).norm() + world.swing[a] + world.swing[b];
   return tolerance::contact_margin + std::min(both, world.reach[a] + world.reach[b]);
 }
 

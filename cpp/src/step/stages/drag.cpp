@@ -25,13 +25,6 @@ Resistance resistance_of(const World& world, int i) {
   return r;
 }
 
-Eigen::Vector3d gravity_of(const World& world) {
-  Eigen::Vector3d g = Eigen::Vector3d::Zero();
-  for (const Effect& effect : world.scene.effects)
-    if (const auto* gravity = std::get_if<UniformGravity>(&effect)) g += gravity->acceleration;
-  return g;
-}
-
 void slow_down(World& world, int i, const Resistance& r, const Eigen::Vector3d& gravity) {
   BodyStates& s = world.states;
   const double m = s.mass[i];

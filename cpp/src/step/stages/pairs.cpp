@@ -30,8 +30,8 @@ void run_pairs(World& world) {
       world.sweep.fast[i] = world.scene.bodies[i].ccd != Ccd::never;
     }
     world.reach[i] = reach;
-    world.boxes[i] = bounds(world.scene.bodies[i].shape, pose)
-                         .inflated(0.5 * tolerance::contact_margin + reach);
+    world.boxes[i] =
+        bounds(world.scene.bodies[i].shape, pose).inflated(0.5 * tolerance::contact_margin + reach);
   }
   world.box_tree.update(world.boxes, s.moves);
 }

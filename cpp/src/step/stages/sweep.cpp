@@ -37,8 +37,12 @@ void ask(World& world, int a, int b, double t) {
   SweepWork& w = world.sweep;
   const Scene::Body &body_a = world.scene.bodies[a], &body_b = world.scene.bodies[b];
   SweepReport& report = world.report.sweep;
+  double thin = std::numeric_limits<double>::infinity();
+  for (const int row : {a, b})
+    if (world.states.moves[row] && w.thickness[row] > 0) thin = std::min(thin, w.thickness[row]);
+  const double deepest = std::min(tolerance::sweep_deepest, tolerance::sweep_deepest_share * thin);
   const FirstContact found =
-      first_contact(body_a.shape, w.paths[a], body_b.shape, w.paths[b], t, world.dt);
+      first_contact(body_a.shape, w.paths[a], body_b.shape, w.paths[b], t, world.dt, deepest);
   ++report.sweeps;
   report.queries += found.queries;
   report.smallest_gap = std::min(report.smallest_gap, found.gap);
