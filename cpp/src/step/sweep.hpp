@@ -33,10 +33,12 @@ struct SweepEvent {
 struct SweepWork {
   std::vector<double> thickness;   ///< m, by row: inner radius; refreshed with the plan
   std::vector<double> swing;       ///< m, by row: what a turn moves, about the centre of mass
+  std::vector<double> radius;      ///< m, by row: that holds it, about the centre of mass
   std::vector<std::uint8_t> fast;  ///< by row: swept in this step
   Array3 position_before;          ///< where the step began
   Array4 orientation_before;
   std::vector<BodyPath> paths;      ///< by row, of this step
+  std::vector<std::uint8_t> laid;   ///< by row: its path is known
   Array3 pull;                      ///< m/s^2, by row: what acts on it once nothing holds it
   Array3 torque;                    ///< N m, by row: rate of the angular momentum over the step
   std::vector<std::uint8_t> waits;  ///< by row: stays where it is until the step ends
@@ -52,8 +54,10 @@ struct SweepWork {
   std::vector<contact::Patch> patches;
 };
 
-/// Paths of all bodies from their states before and after the integration.
-void lay_paths(World& world);
+/// No path is known yet.
+void begin_paths(World& world);
+/// Path of one body from its states before and after the integration, where it is not known.
+void need_path(World& world, int row);
 /// Path of one body from time t on, from its state there: position, orientation, velocity,
 /// momentum. Leaves in the states where it ends.
 void lay_path(World& world, int row, double t, const Eigen::Vector3d& acceleration);
@@ -61,7 +65,7 @@ void lay_path(World& world, int row, double t, const Eigen::Vector3d& accelerati
 void go_to(World& world, int row, double t);
 /// Stops a body where it is at time t, until the step ends; it keeps its velocity.
 void wait_at(World& world, int row, double t);
-/// Box of the rest of a path.
+/// Box of the rest of a path, or of the whole of one that is not known.
 [[nodiscard]] Aabb path_bounds(const World& world, int row);
 
 /// Resolves a hit: both bodies at its time, impulses with friction and restitution, new paths.

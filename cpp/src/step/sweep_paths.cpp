@@ -82,36 +82,41 @@ Vector3d momentum_at(const World& world, int i, double t, const Quaterniond& at)
 
 }  // namespace
 
-void lay_paths(World& world) {
+void begin_paths(World& world) {
   SweepWork& w = world.sweep;
-  const BodyStates& s = world.states;
-  const int n = s.size();
+  const int n = world.states.size();
   w.paths.resize(n);
-  for (Array3* a : {&w.torque, &w.pull}) a->x.assign(n, 0), a->y.assign(n, 0), a->z.assign(n, 0);
-  const Vector3d gravity = gravity_of(world);
-  const bool solved = world.plan.runs(StageKind::solve);
-  for (int i = 0; i < n; ++i) {
-    BodyPath& path = w.paths[i];
-    path.start = 0;
-    path.com_b = s.com_b[i];
-    path.centre = w.position_before[i];
-    path.acceleration.setZero(), path.velocity.setZero();
-    if (!s.moves[i]) {
-      path.arcs.assign(1, {0, s.orientation[i] * s.axes_b[i].conjugate(), Vector3d::Zero()});
-      continue;
-    }
-    // The parabola that gets there with the velocity it ends with: the true one in free flight, and
-    // one whose speed fits its way where contacts pushed.
-    const Vector3d mean = (s.position[i] - path.centre) / world.dt;
-    path.acceleration = 2 / world.dt * (s.velocity[i] - mean);
-    path.velocity = 2 * mean - s.velocity[i];
-    const bool pushed = solved && world.solver.motion().decided[i];
-    w.pull.set(i, pushed ? gravity : path.acceleration);
-    if (!pushed)
-      w.torque.set(i, (s.angular_momentum[i] - world.angular_momentum_before[i]) / world.dt);
-    const Quaterniond q1 = s.orientation[i];
-    lay_arcs(world, i, 0, w.orientation_before[i], &q1, path);
+  w.laid.assign(n, 0), w.waits.assign(n, 0), w.version.assign(n, 0), w.hits.assign(n, 0);
+  for (Array3* a : {&w.torque, &w.pull}) a->x.resize(n), a->y.resize(n), a->z.resize(n);
+}
+
+void need_path(World& world, int i) {
+  SweepWork& w = world.sweep;
+  if (w.laid[i]) return;
+  w.laid[i] = 1;
+  const BodyStates& s = world.states;
+  BodyPath& path = w.paths[i];
+  path.start = 0;
+  path.com_b = s.com_b[i];
+  path.centre = w.position_before[i];
+  path.acceleration.setZero(), path.velocity.setZero();
+  w.torque.set(i, Vector3d::Zero());
+  if (!s.moves[i]) {
+    path.arcs.assign(1, {0, s.orientation[i] * s.axes_b[i].conjugate(), Vector3d::Zero()});
+    w.pull.set(i, Vector3d::Zero());
+    return;
   }
+  // The parabola that gets there with the velocity it ends with: the true one in free flight, and
+  // one whose speed fits its way where contacts pushed.
+  const Vector3d mean = (s.position[i] - path.centre) / world.dt;
+  path.acceleration = 2 / world.dt * (s.velocity[i] - mean);
+  path.velocity = 2 * mean - s.velocity[i];
+  const bool pushed = world.plan.runs(StageKind::solve) && world.solver.motion().decided[i];
+  w.pull.set(i, pushed ? gravity_of(world) : path.acceleration);
+  if (!pushed)
+    w.torque.set(i, (s.angular_momentum[i] - world.angular_momentum_before[i]) / world.dt);
+  const Quaterniond q1 = s.orientation[i];
+  lay_arcs(world, i, 0, w.orientation_before[i], &q1, path);
 }
 
 void go_to(World& world, int i, double t) {
@@ -163,11 +168,15 @@ void wait_at(World& world, int i, double t) {
 
 Aabb path_bounds(const World& world, int i) {
   const SweepWork& w = world.sweep;
-  const Shape& shape = world.scene.bodies[i].shape;
-  const double radius = bounding_radius(shape) + w.paths[i].com_b.norm();
-  return w.paths[i]
-      .centre_bounds(w.paths[i].start, world.dt)
-      .inflated(radius + tolerance::sweep_clear);
+  if (!world.states.moves[i]) return world.boxes[i];
+  const double around = w.radius[i] + tolerance::sweep_clear;
+  if (w.laid[i]) return w.paths[i].centre_bounds(w.paths[i].start, world.dt).inflated(around);
+  // The parabola leaves its chord by a h^2 / 8, and a h / 2 is what the mean speed lacks.
+  const Vector3d from = w.position_before[i], to = world.states.position[i];
+  const double bulge = 0.25 * (world.dt * world.states.velocity[i] - (to - from)).norm();
+  Aabb box;
+  box.extend(from), box.extend(to);
+  return box.inflated(around + bulge);
 }
 
 }  // namespace carom

@@ -35,6 +35,7 @@ bool mark_fast(World& world) {
 
 void ask(World& world, int a, int b, double t) {
   SweepWork& w = world.sweep;
+  need_path(world, a), need_path(world, b);
   const Scene::Body &body_a = world.scene.bodies[a], &body_b = world.scene.bodies[b];
   SweepReport& report = world.report.sweep;
   double thin = std::numeric_limits<double>::infinity();
@@ -94,14 +95,14 @@ void handle(World& world, const SweepEvent& event) {
 void run_sweep(World& world) {
   SweepWork& w = world.sweep;
   const int n = world.states.size();
-  world.report.sweep.swept = 0;
-  const bool any = mark_fast(world);
-  if (!any && !world.options.verify) return;
-  lay_paths(world);
-  w.waits.assign(n, 0), w.version.assign(n, 0), w.hits.assign(n, 0);
+  const bool any = mark_fast(world), verify = world.options.verify;
+  world.report.sweep.swept = static_cast<int>(std::ranges::count(w.fast, 1));
+  if (!any && !verify) return;
+  begin_paths(world);
+  if (verify)
+    for (int i = 0; i < n; ++i) need_path(world, i);
   w.boxes.resize(n);
-  for (int i = 0; i < n; ++i)
-    w.boxes[i] = world.states.moves[i] ? path_bounds(world, i) : world.boxes[i];
+  for (int i = 0; i < n; ++i) w.boxes[i] = path_bounds(world, i);
   w.events.clear();
   if (any)
     for (const BodyPair& pair : w.tree.update(w.boxes, w.fast)) ask(world, pair.a, pair.b, 0);
@@ -112,8 +113,7 @@ void run_sweep(World& world) {
     if (w.version[event.a] == event.version_a && w.version[event.b] == event.version_b)
       handle(world, event);
   }
-  world.report.sweep.swept = static_cast<int>(std::ranges::count(w.fast, 1));
-  if (world.options.verify) verify_step(world);
+  if (verify) verify_step(world);
 }
 
 }  // namespace carom
