@@ -212,8 +212,9 @@ def plot(rows: list[Row], path: Path | str) -> None:
         axes.xaxis.set_minor_formatter("")
     handles = [
         plt.Line2D([], [], color=SMALL, marker="o", label="small steps, so many per step"),
-        plt.Line2D([], [], color=DIRECT, marker="D", linestyle="", label="direct solver"),
-        plt.Line2D([], [], color=AUTOMATIC, marker="*", markersize=12, linestyle="",
+        plt.Line2D([], [], color=DIRECT, marker="D", markersize=9, linestyle="",
+                   label="direct solver"),
+        plt.Line2D([], [], color=AUTOMATIC, marker="*", markersize=10, linestyle="",
                    label="automatic, the default"),
     ]  # fmt: skip
     figure.legend(
