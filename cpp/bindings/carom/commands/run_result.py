@@ -28,7 +28,8 @@ def as_text(scene: str, simulation: Simulation, start: Energy) -> None:
     print(
         f"contacts: {contact.points} points at the end, deepest overlap "
         f"{number(contact.deepest_overlap)} m, residual {number(contact.residual)} m/s, "
-        f"{contact.gave_up} solves gave up"
+        f"{contact.gave_up} solves gave up; {contact.islands} islands, "
+        f"{contact.direct_islands} solved directly, {contact.asleep} bodies asleep"
     )
     sweep = report.sweep
     if sweep.sweeps:
@@ -83,6 +84,9 @@ def as_json(scene: str, simulation: Simulation, start: Energy) -> None:
                 "residual_m_per_s": contact.residual,
                 "iterations": contact.iterations,
                 "gave_up": contact.gave_up,
+                "islands": contact.islands,
+                "direct_islands": contact.direct_islands,
+                "asleep": contact.asleep,
             },
             "sweep": {
                 "sweeps": report.sweep.sweeps,
