@@ -43,6 +43,7 @@ void inherit(std::span<Contact> now, std::span<const Contact> old,
 /// Contacts that met a step ago start from the impulse they ended with: the same two features of
 /// the same two bodies. Both lists ascend by pair.
 void warm_start(World& world) {
+  thread_local std::vector<std::size_t> heirs;
   const std::vector<Contact>& old = world.contacts_before;
   std::vector<Contact>& now = world.contacts;
   std::size_t first = 0, last = 0;
@@ -51,7 +52,7 @@ void warm_start(World& world) {
     for (end = i; end < now.size() && pair_of(now[end]) == pair;) ++end;
     while (first < old.size() && pair_of(old[first]) < pair) ++first;
     for (last = first; last < old.size() && pair_of(old[last]) == pair;) ++last;
-    world.warm.assign(last - first, 0);
+    heirs.assign(last - first, 0);
     bool any_left = false;
     for (std::size_t k = first; k < last; ++k) {
       const auto same = std::find_if(now.begin() + i, now.begin() + end,
@@ -62,11 +63,11 @@ void warm_start(World& world) {
       }
       same->impulse = old[k].impulse_at_end;
       same->turning_impulse = old[k].turning_impulse;
-      world.warm[k - first] = taken;
+      heirs[k - first] = taken;
     }
     if (any_left)
       inherit(std::span(now).subspan(i, end - i), std::span(old).subspan(first, last - first),
-              world.warm);
+              heirs);
     first = last;
   }
 }
