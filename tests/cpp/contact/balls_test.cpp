@@ -31,13 +31,14 @@ SimulationOptions small_steps() {
 TEST(BallRows, SolveWhatGeneralRowsSolve) {
   Simulation balls(heap(0), small_steps()), general(heap(1e-200), small_steps());
   double worst = 0;
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < 3; ++k) {
     balls.step(), general.step();
     for (int i = 0; i < balls.size(); ++i) {
       const BodyStates &a = balls.states(), &b = general.states();
       worst = std::max(worst, (a.velocity[i] - b.velocity[i]).norm());
       worst = std::max(worst, (a.angular_velocity(i) - b.angular_velocity(i)).norm());
     }
+    std::printf("step %d: %.1e\n", k, worst);
   }
   EXPECT_GT(balls.contacts().size(), 60u);
   // Rounding of 1e-16 of speeds of 10 m/s, made larger by each hit of a ball on balls: the angle

@@ -50,7 +50,7 @@ TEST(BoxBox, GapAndDepthAreThoseOfASearch) {
   }
   EXPECT_GT(apart, 200);
   EXPECT_GT(overlapping, 500);
-  EXPECT_GT(none, 500);
+  EXPECT_GT(none, 200);
 }
 
 // Nearly parallel edges have cross products of no length: the faces must decide.
