@@ -6,14 +6,14 @@ import pytest
 from carom.stress import GROUPS, cases_of, run_case
 
 KNOWN = {
+    "mesh_against_a_sheet": "of 8 meshes at 500 rad/s one gets through an open mesh",
     "fast_tumble_gets_substeps": "1.1e-2: sub-steps are longer than tolerance.hpp's bound supposes",
-    "falling_beside_others": "1 cm: islands of small steps fall by sub-steps of order 1",
+    "falling_beside_others": "3 mm: islands of small steps fall by sub-steps of order 1",
     "slab_under_25_balls": "1.8e-8 m^2/s^2: Bullet published 5.7e-9; half a step late at the start",
     "elastic_cube_of_216": "13 % of the energy is booked as dissipated in the first hits, e = 1",
-    "ball_in_a_corner": "1.1e-5 m: the small-steps solver trembles by 3e-5 m/s; direct holds it",
+    "ball_in_a_corner": "1e-5 m: the small-steps solver trembles by 3e-5 m/s; direct holds it",
     "house_of_two_cards": "parallel edges meet with the normal of a face, not of the pair",
-    "zeno_ball_comes_to_rest": "rests 15 steps late instead of 3: each bounce costs part of a step",
-    "mirror_symmetry": "0.49 m: islands are solved in the order of rows",
+    "mirror_symmetry": "0.4 m: islands are solved in the order of rows",
 }
 """Bugs open in the library, each a row of the table that fails."""
 
