@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table of hard cases, one test each; those known to fail say why and must go on failing."""
+"""The table of hard cases, one test each; of those known to fail a fix shows as XPASS."""
 
 import pytest
 
@@ -23,7 +23,7 @@ CASES = [case for group in GROUPS for case in cases_of(group)]
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 def test_it_keeps_its_limit(case, request):
     if case.name in KNOWN:
-        request.applymarker(pytest.mark.xfail(strict=True, reason=KNOWN[case.name]))
+        request.applymarker(pytest.mark.xfail(strict=False, reason=KNOWN[case.name]))
     outcome = run_case(case)
     assert not outcome.problem
     assert outcome.passed, f"{outcome.value:g} {case.unit}, limit {case.limit:g}: {case.measures}"
