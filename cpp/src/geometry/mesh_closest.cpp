@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -50,6 +51,34 @@ Nearest search(const MeshSurface& s, const Eigen::Vector3d& p, double reach) {
   return best;
 }
 
+/// Whether the nearest feature lies on the rim of an open surface.
+bool on_rim(const MeshSurface& s, const Nearest& best) {
+  const auto open = [&](int e) { return e >= 0 && s.edges[e].f1 < 0; };
+  const int f = static_cast<int>(best.at.feature);
+  if (f >= 6) return false;
+  if (f >= 3) return open(s.face_edges[best.face][f - 3]);
+  const int v = s.mesh.faces(best.face, f);
+  return std::any_of(s.vertex_edges.begin() + s.vertex_first[v],
+                     s.vertex_edges.begin() + s.vertex_first[v + 1], open);
+}
+
+/// Of the feature nearest to a point; its sign tells the side.
+Eigen::Vector3d pseudonormal(const MeshSurface& s, const Nearest& best, std::uint32_t& name) {
+  name = feature::face(s.face_cluster[best.face]);
+  const int f = static_cast<int>(best.at.feature);
+  if (f < 3) {
+    const int v = s.mesh.faces(best.face, f);
+    name = feature::vertex(v);
+    return s.vertex_normals[v];
+  }
+  if (f < 6)
+    if (const int e = s.face_edges[best.face][f - 3]; s.edges[e].bend != MeshSurface::Bend::flat) {
+      name = feature::edge(e);
+      return s.edges[e].normal;
+    }
+  return s.face_normals[best.face];
+}
+
 }  // namespace
 
 SurfacePoint closest_point(const MeshSurface& s, const Eigen::Vector3d& p, double reach) {
@@ -58,25 +87,12 @@ SurfacePoint closest_point(const MeshSurface& s, const Eigen::Vector3d& p, doubl
   if (best.face < 0) return out;
   out.face = best.face;
   out.point = best.at.point;
-  Eigen::Vector3d pseudo = s.face_normals[best.face];
-  out.feature = feature::face(s.face_cluster[best.face]);
-  const int f = static_cast<int>(best.at.feature);
-  if (f < 3) {
-    const int v = s.mesh.faces(best.face, f);
-    pseudo = s.vertex_normals[v];
-    out.feature = feature::vertex(v);
-  } else if (f < 6) {
-    const int e = s.face_edges[best.face][f - 3];
-    if (s.edges[e].bend != MeshSurface::Bend::flat) {
-      pseudo = s.edges[e].normal;
-      out.feature = feature::edge(e);
-    }
-  }
+  const Eigen::Vector3d pseudo = pseudonormal(s, best, out.feature);
   const Eigen::Vector3d away = p - out.point;
   const double side = away.dot(pseudo);
   const double length = std::sqrt(best.squared);
   out.distance = side < 0 ? -length : length;
-  if (f >= 3 && f < 6 && s.edges[s.face_edges[best.face][f - 3]].f1 < 0)
+  if (s.faults.open_edges > 0 && on_rim(s, best))
     out.distance = length;  // past the rim of an open surface there is no inside
   // On the surface the way is lost to rounding; on a face the face's normal is exact anyway.
   const bool on_face = out.feature == feature::face(s.face_cluster[best.face]);
@@ -85,6 +101,14 @@ SurfacePoint closest_point(const MeshSurface& s, const Eigen::Vector3d& p, doubl
   else
     out.normal = away / out.distance;
   return out;
+}
+
+Side side_of(const MeshSurface& s, const Eigen::Vector3d& p, double reach) {
+  const Nearest best = search(s, p, reach);
+  if (best.face < 0) return Side::none;
+  std::uint32_t unused;
+  const double height = (p - best.at.point).dot(pseudonormal(s, best, unused));
+  return height < 0 ? Side::behind : Side::front;
 }
 
 }  // namespace carom

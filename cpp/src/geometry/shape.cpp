@@ -169,7 +169,12 @@ Mesh::Mesh(TriangleMesh mesh) {
     triangles = std::make_shared<const TriangleMesh>(std::move(mesh));
     return;
   }
-  surface = std::make_shared<const MeshSurface>(mesh);
+  auto made = std::make_shared<MeshSurface>(mesh);
+  if (made->faults.open_edges > 0) {
+    mesh.faces.col(1).swap(mesh.faces.col(2));
+    made->back = std::make_shared<const MeshSurface>(mesh);
+  }
+  surface = made;
   triangles = std::shared_ptr<const TriangleMesh>(surface, &surface->mesh);  // one copy, two views
 }
 

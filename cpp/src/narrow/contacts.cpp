@@ -30,6 +30,24 @@ struct Leaf {
   const MeshSurface* surface = nullptr;
   const SdfGrid* sdf = nullptr;
 
+  /// About the middle of the body, in its frame.
+  Vector3d centre() const {
+    if (sdf) return sdf->box().centre();
+    if (surface && kind == Kind::surface) return surface->tree.nodes[0].box.centre();
+    if (convex.kind == Convex::Kind::points && convex.end_count == 0) {
+      Vector3d sum = Vector3d::Zero();
+      for (const Vector3d& p : convex.points) sum += p;
+      return sum / static_cast<double>(convex.points.size());
+    }
+    return convex.end_count == 1 ? convex.ends[0] : Vector3d::Zero();
+  }
+  /// A ball about that middle which holds the body, m.
+  double radius_about_centre() const {
+    const auto diagonal = [](const Aabb& all) { return all.extents().norm(); };
+    if (sdf) return diagonal(sdf->box());
+    if (surface) return diagonal(surface->tree.nodes[0].box);
+    return convex.bounding_radius();  // these have their middle at the origin
+  }
   bool is_ball() const { return convex.kind == Convex::Kind::points && convex.end_count == 1; }
 };
 
@@ -102,6 +120,20 @@ void meet(const Leaf& a, const Leaf& b, const Frame& b_in_a, double margin, Mani
   }
 }
 
+/// Turns a sheet to the side on which the other body's centre lies; false where they cannot meet.
+/// @param seen_from  m, that centre in the sheet's frame
+bool turn_sheet(Leaf& sheet, const Leaf& other, const Vector3d& seen_from, double margin) {
+  if (other.kind == Kind::half_space) return true;
+  const double reach = other.radius_about_centre() + margin;
+  const Side side = side_of(*sheet.surface, seen_from, reach);
+  if (side == Side::behind) sheet.surface = sheet.surface->back.get();
+  return side != Side::none;
+}
+
+bool is_sheet(const Leaf& leaf) {
+  return leaf.kind == Kind::surface && leaf.surface->back;
+}
+
 /// Whether the pair is asked as (b, a).
 bool turned(const Leaf& a, const Leaf& b) {
   if (a.kind == Kind::half_space || b.kind == Kind::half_space) return b.kind == Kind::half_space;
@@ -125,7 +157,13 @@ void collide_leaves(const Shape& a, const Frame& frame_a, const Shape& b, const 
   if (turn) std::swap(la, lb);
   const Frame &first = turn ? frame_b : frame_a, &second = turn ? frame_a : frame_b;
   const std::size_t begin = out.size();
-  meet(la, lb, relative(first, second), margin, out);
+  const Frame b_in_a = relative(first, second);
+  if (const bool sheet_a = is_sheet(la), sheet_b = is_sheet(lb); sheet_a || sheet_b) {
+    const Vector3d centre_a = la.centre(), centre_b = lb.centre();
+    if (sheet_a && !turn_sheet(la, lb, b_in_a * centre_b, margin)) return;
+    if (sheet_b && !turn_sheet(lb, la, b_in_a.to_local(centre_a), margin)) return;
+  }
+  meet(la, lb, b_in_a, margin, out);
   in_world(first, begin, turn ? -1 : 1, out);
 }
 

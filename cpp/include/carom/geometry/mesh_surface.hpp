@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,9 +17,9 @@ namespace carom {
 
 /// What is wrong with a mesh, counted. None of it is refused for a static body; the policy:
 /// a face without area, a duplicate of another face and an edge of more than two faces are left
-/// out of neighbourhoods (the surface is kept); an open edge counts as convex on its one side and
-/// the surface as one-sided, solid behind its faces; an inverted closed mesh is reported, not
-/// turned.
+/// out of neighbourhoods (the surface is kept); an open edge counts as convex on its one side, and
+/// a mesh that has one is a sheet with two sides, see MeshSurface::back; an inverted closed mesh is
+/// reported, not turned.
 struct MeshFaults {
   int open_edges = 0;          ///< of one face only
   int non_manifold_edges = 0;  ///< of three faces and more, or of two that run the same way
@@ -60,6 +61,10 @@ struct MeshSurface {
   MeshTree tree;
   double volume = 0;                 ///< m^3, signed; of no meaning when open
   std::optional<Polytope> polytope;  ///< when the mesh is convex
+  /// An open mesh has no inside: a body is held on the side its centre lies on. From behind it
+  /// meets this, the same faces turned over; null for closed meshes and height fields, which are
+  /// solid.
+  std::shared_ptr<const MeshSurface> back;
 
   [[nodiscard]] Eigen::Vector3d vertex(int v) const { return mesh.vertices.row(v).transpose(); }
   [[nodiscard]] Eigen::Vector3d corner(int f, int k) const { return vertex(mesh.faces(f, k)); }
@@ -79,5 +84,10 @@ struct SurfacePoint {
 /// surfaces. Source: J. A. Baerentzen, H. Aanaes, IEEE TVCG 11(3), 2005.
 [[nodiscard]] SurfacePoint closest_point(const MeshSurface& surface, const Eigen::Vector3d& p,
                                          double reach);
+
+/// The side of a sheet that p (mesh frame) sees; none: it is farther than `reach` m away. In the
+/// plane of a rim, where p sees neither: the front.
+enum class Side : std::int8_t { none, front, behind };
+[[nodiscard]] Side side_of(const MeshSurface& surface, const Eigen::Vector3d& p, double reach);
 
 }  // namespace carom

@@ -40,7 +40,8 @@ struct Plane {
 struct MeshSurface;
 
 /// Triangle mesh, shared: a thousand bodies of one mesh hold one copy. Moving bodies need a closed
-/// one; a static one may be open and is then solid behind its faces.
+/// one, solid inside; a static one may be open and is then a sheet without thickness: whatever its
+/// winding, a body is held on the side its centre lies on (each part of a compound by its own).
 struct Mesh {
   std::shared_ptr<const TriangleMesh> triangles;
   std::shared_ptr<const MeshSurface> surface;  ///< its neighbourhoods; none for an invalid mesh
