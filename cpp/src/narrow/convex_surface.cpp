@@ -31,10 +31,10 @@ struct Test {
   bool hold(const Vector3d& core_point, const Vector3d& n, std::uint32_t name) const {
     const double reach = margin + body.radius + range;
     const SurfacePoint q = closest_point(surface, core_point, reach);
-    if (q.face < 0 || (q.normal - n).norm() > tolerance::normal_cone) return false;
+    if (q.face < 0 || (q.normal - n).norm() > tolerance::flat_bend) return false;
     const double gap = q.distance - body.radius;
     if (gap <= margin)
-      out.push_back({q.normal,
+      out.push_back({n,
                      {core_point - (body.radius + 0.5 * gap) * q.normal, gap,
                       feature::pair(q.feature, name)}});
     return true;

@@ -9,13 +9,14 @@ namespace carom {
 
 using Bend = MeshSurface::Bend;
 
-bool in_cone_of_vertex(const MeshSurface& s, int v, const Eigen::Vector3d& direction) {
+bool in_cone_of_vertex(const MeshSurface& s, int v, const Eigen::Vector3d& direction,
+                       double slack) {
   if (!s.vertex_sharp[v]) return false;
   const double length = direction.norm();
   for (int k = s.vertex_first[v]; k < s.vertex_first[v + 1]; ++k) {
     const auto& e = s.edges[s.vertex_edges[k]];
     const Eigen::Vector3d along = s.vertex(e.v0 == v ? e.v1 : e.v0) - s.vertex(v);
-    if (along.dot(direction) > tolerance::normal_cone * along.norm() * length) return false;
+    if (along.dot(direction) > slack * along.norm() * length) return false;
   }
   return true;
 }

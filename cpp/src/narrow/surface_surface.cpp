@@ -94,8 +94,13 @@ struct VertexTest {
       if (squared_distance(t.tree.nodes[0].box, x) > margin * margin) continue;
       SurfacePoint q = closest_point(t, x, reach);
       if (q.face < 0 || q.distance > margin) continue;
+      // Faces that bend a little are one plane, whose points share a manifold.
+      if (q.feature == feature::face(t.face_cluster[q.face]))
+        q.normal = t.face_normals[t.face_cluster[q.face]];
       // Its own body must lie on the far side, or it is the back of a thin body showing through.
-      if (!in_cone_of_vertex(s, v, -(s_in_t.rotation.transpose() * q.normal)))
+      // All corners of a face that is nearly level count: they carry the patch.
+      if (!in_cone_of_vertex(s, v, -(s_in_t.rotation.transpose() * q.normal),
+                             tolerance::similar_normal))
         q = way_out(s, v, s_in_t, t, x, margin, range);
       if (q.face >= 0) add(v, x, q, out);
     }
