@@ -131,6 +131,26 @@ void bind_effects(py::module_& m) {
                     py::cast(Eigen::Vector4d(s.rest.coeffs())).attr("tolist")());
       });
 
+  py::class_<Repulsion>(m, "Repulsion",
+                        "The lecture's way out of overlap: speed depth / dt along the normal. It\n"
+                        "puts energy in: see Energy.repulsion and Report.repulsion.")
+      .def(py::init([](bool bounded, double cap, bool interior_normals) {
+             return checked(Repulsion{bounded, cap, interior_normals}, "Repulsion");
+           }),
+           "bounded"_a = true, "cap"_a = Repulsion{}.cap, "interior_normals"_a = true,
+           "bounded: give a point only what it lacks of that speed, and never more than leaves it "
+           "at\n"
+           "cap, m/s, > 0; interior_normals: take the normals of particles inside distance grids "
+           "from\n"
+           "the chain gradient, swept hit, velocity.")
+      .def_readonly("bounded", &Repulsion::bounded)
+      .def_readonly("cap", &Repulsion::cap, "m/s")
+      .def_readonly("interior_normals", &Repulsion::interior_normals)
+      .def("__repr__", [](const Repulsion& r) {
+        return py::str("Repulsion(bounded={}, cap={!r}, interior_normals={})")
+            .format(r.bounded, r.cap, r.interior_normals);
+      });
+
   py::class_<EffectInfo>(m, "EffectInfo", "What there is to know of a kind of effect.")
       .def_property_readonly(
           "name", [](const EffectInfo& i) { return std::string(i.name); }, "as in scene files")

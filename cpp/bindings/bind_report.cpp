@@ -18,8 +18,10 @@ void bind_report(py::module_& m) {
       .def_readonly("dissipated", &Energy::dissipated,
                     "J, by contacts and friction since the start")
       .def_readonly("work", &Energy::work, "J, by applied wrenches and impulses since the start")
+      .def_readonly("repulsion", &Energy::repulsion,
+                    "J, put in by the lecture's repulsion since the start")
       .def_property_readonly("balance", &Energy::balance,
-                             "J, kinetic + potential + dissipated - work")
+                             "J, kinetic + potential + dissipated - work - repulsion")
       .def("__repr__", [](const Energy& e) {
         return py::str("Energy(kinetic={:.6g}, potential={:.6g}, dissipated={:.6g}, work={:.6g})")
             .format(e.kinetic, e.potential, e.dissipated, e.work);
@@ -42,6 +44,25 @@ void bind_report(py::module_& m) {
                    "ContactReport(points={}, deepest_overlap={:.4g}, residual={:.4g}, "
                    "iterations={}, gave_up={})")
             .format(c.points, c.deepest_overlap, c.residual, c.iterations, c.gave_up);
+      });
+
+  py::class_<RepulsionReport>(m, "RepulsionReport",
+                              "What the lecture's repulsion did, added up; the first four: where "
+                              "the\nnormals of centres inside distance grids came from.")
+      .def_readonly("gradient", &RepulsionReport::gradient, "of the distance")
+      .def_readonly("swept_hit", &RepulsionReport::swept_hit, "where the path met the surface")
+      .def_readonly("velocity", &RepulsionReport::velocity, "opposite of the motion")
+      .def_readonly("kept", &RepulsionReport::kept, "of the step before: inside all along")
+      .def_readonly("pushed", &RepulsionReport::pushed, "contact points")
+      .def_readonly("capped", &RepulsionReport::capped, "steps that stopped at the cap of sweeps")
+      .def_readonly("stagnated", &RepulsionReport::stagnated, "steps that rounding stopped")
+      .def_readonly("fastest", &RepulsionReport::fastest, "m/s, largest speed given to a point")
+      .def("__repr__", [](const RepulsionReport& r) {
+        return py::str(
+                   "RepulsionReport(pushed={}, gradient={}, swept_hit={}, velocity={}, kept={}, "
+                   "capped={}, stagnated={}, fastest={:.4g})")
+            .format(r.pushed, r.gradient, r.swept_hit, r.velocity, r.kept, r.capped, r.stagnated,
+                    r.fastest);
       });
 
   py::class_<RotationReport>(m, "RotationReport", "What turning the bodies took, added up.")
@@ -97,6 +118,7 @@ void bind_report(py::module_& m) {
       .def_readonly("contact", &Report::contact)
       .def_readonly("rotation", &Report::rotation)
       .def_readonly("sweep", &Report::sweep)
+      .def_readonly("repulsion", &Report::repulsion)
       .def_readonly("frozen", &Report::frozen,
                     "ids of bodies held at their last good pose since their state went non-finite")
       .def_property_readonly("ok", &Report::ok, "no body frozen or made to wait, no solve given up")

@@ -114,6 +114,8 @@ void bind_body(py::module_& m) {
             return b.ccd == Ccd::automatic ? "auto" : b.ccd == Ccd::always ? "always" : "never";
           },
           "'auto', 'always' or 'never'")
+      .def_readonly("groups", &Body::groups, "bits of the groups it belongs to")
+      .def_readonly("meets", &Body::meets, "bits of the groups it meets")
       .def("__repr__", [](const Body& b) {
         return py::str("<Body {} {!r} {!r}{}>")
             .format(b.id, b.name, b.shape, b.is_static ? " static" : "");
@@ -144,6 +146,21 @@ void bind_scene(py::module_& m) {
             self.remove(python::body_id(body, self));
           },
           "body"_a, "Takes a body out by id or name; the rows after it close up.")
+      .def(
+          "never_meet",
+          [](Scene& self, const python::BodyLike& a, const python::BodyLike& b) {
+            self.never_meet(python::body_id(a, self), python::body_id(b, self));
+          },
+          "a"_a, "b"_a,
+          "Lets two bodies, by id or name, pass through each other, whatever their groups.")
+      .def_property_readonly(
+          "never",
+          [](const Scene& self) {
+            std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+            for (const auto& [a, b] : self.never) pairs.emplace_back(a.value, b.value);
+            return pairs;
+          },
+          "Pairs of ids that never meet.")
       .def(
           "find", [](const Scene& self, const std::string& name) { return self.find(name); },
           "name"_a, "Id of the body of that name, or None.")

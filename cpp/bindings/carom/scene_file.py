@@ -8,8 +8,11 @@
       - {name: crate, mass: 2, shape: {Box: {extents: [0.2, 0.2, 0.2]}}, position: [0, 0, 1]}
       - {name: bolt, shape: {Mesh: {path: bolt.stl, scale: 0.001}}, position: [0, 0, 2]}
 
+`never_meet: [[crate, bolt]]` at the top lets the two pass through each other.
+
 YAML 1.2: 1e3 is a number and `on` is text. A body that an effect names is named, not numbered. Mesh
-files are found from the folder of the scene file.
+files are found from the folder of the scene file. Shapes nest: `Sdf: {mesh: {path: bolt.stl},
+spacing: 0.01}`, `Compound: {parts: [{shape: {Sphere: {radius: 1}}, position: [0, 0, 1]}]}`.
 """
 
 from __future__ import annotations
@@ -58,12 +61,22 @@ class _SceneReader:
         self.meshes: dict[tuple[Path, float], Mesh] = {}
 
     def read(self, top: Place) -> Scene:
-        top.only_keys(["bodies", "effects"])
+        top.only_keys(["bodies", "effects", "never_meet"])
         for body in top.items("bodies"):
             self.add_body(body)
         for effect in top.items("effects"):
             self.scene.effects.append(self.effect(effect))
+        for pair in top.items("never_meet"):
+            self.keep_apart(pair)
         return self.scene
+
+    def keep_apart(self, pair: Place) -> None:
+        names = pair.value
+        if not isinstance(names, list) or len(names) != 2:
+            raise pair.error(pair.text(), "must be two names of bodies, as [arm, hand]")
+        ids = [self.body_id(Place(pair.source, pair.path, pair.line, name)) for name in names]
+        with pair.locating_errors("never_meet"):
+            self.scene.never_meet(*ids)
 
     def add_body(self, body: Place) -> None:
         valid = parameters(Scene.add)
@@ -111,13 +124,23 @@ class _SceneReader:
         for key in place:
             named = key == "body" or key.startswith("body_")
             arguments[key] = (
-                self.body_id(place[key]) if named else place[key].value_as(valid[key].kind)
+                self.body_id(place[key]) if named else self.argument(place, key, valid[key].kind)
             )
         missing = [key for key in valid if valid[key].required and key not in arguments]
         if missing:
             raise place.error(f"no {missing[0]}", f"must have {' and '.join(missing)}")
         with place.locating_errors(cls.__name__):
             return cls(**arguments)
+
+    def argument(self, place: Place, key: str, kind: str) -> Any:
+        """A value, or a shape or the parts of one within another."""
+        if kind.endswith("_core.Mesh"):
+            return self.mesh(place[key])
+        if "_core.Part]" in kind:
+            return [self.build(_core.Part, part) for part in place.items(key)]
+        if kind.count("_core.") == len(SHAPES):
+            return self.shape(place[key])
+        return place[key].value_as(kind)
 
     def body_id(self, place: Place) -> int:
         name = place.value_as("str")

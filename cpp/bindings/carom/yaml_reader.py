@@ -150,7 +150,7 @@ _KINDS = (
     (("float", "SupportsFloat"), _is_number, "must be a number"),
     (("bool",), lambda value: isinstance(value, bool), "must be true or false"),
     (("str",), lambda value: isinstance(value, str), "must be text"),
-    (("int",), _is_whole, "must be a whole number"),
+    (("int", "SupportsInt"), _is_whole, "must be a whole number"),
 )
 
 

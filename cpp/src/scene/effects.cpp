@@ -18,6 +18,8 @@ constexpr EffectInfo table[] = {
     {"TorsionSpring", "torsion", "T = -stiffness theta - damping omega",
      "U = stiffness theta^2 / 2; P = -damping omega^2",
      "stiffness: N m/rad, damping: N m s, rest: quaternion x y z w"},
+    {"Repulsion", "repulsion", "dv = depth / dt along the normal; friction", "adds sum m v dv",
+     "bounded: true or false, cap: m/s, interior_normals: true or false"},
 };
 static_assert(std::size(table) == std::variant_size_v<Effect>);
 
@@ -37,6 +39,7 @@ std::optional<BodyId> body_of(const Effect& effect) {
     std::optional<BodyId> operator()(const AppliedWrench& w) const { return w.body; }
     std::optional<BodyId> operator()(const LinearDrag& d) const { return d.body; }
     std::optional<BodyId> operator()(const TorsionSpring& s) const { return s.body; }
+    std::optional<BodyId> operator()(const Repulsion&) const { return {}; }
   };
   return std::visit(Body{}, effect);
 }
@@ -69,6 +72,7 @@ void require_valid(const Effect& effect, std::string_view field) {
       require_non_negative(s.damping, field + ".damping", "N m s");
       (void)unit_quaternion(s.rest.coeffs(), field + ".rest");
     }
+    void operator()(const Repulsion& r) const { require_positive(r.cap, field + ".cap", "m/s"); }
   };
   std::visit(Check{std::string(field)}, effect);
 }

@@ -54,6 +54,9 @@ void require_valid(const BodyDefinition& body) {
                        "must be from 0 to 1");
   require_non_negative(body.rolling_resistance, body.name + ".rolling_resistance", "m");
   require_non_negative(body.spinning_resistance, body.name + ".spinning_resistance", "m");
+  if (body.groups == 0)
+    throw InvalidInput(body.name + ".groups", "0", "must have a bit set",
+                       "a body that nothing touches has meets = 0");
   if (body.is_static && (!body.velocity.isZero(0) || !body.angular_velocity.isZero(0)))
     throw InvalidInput(body.name + ".velocity", with_unit(body.velocity.transpose(), "m/s"),
                        "must be 0 for a static body");
@@ -85,10 +88,29 @@ BodyId Scene::add(BodyDefinition body) {
   return id;
 }
 
+void Scene::never_meet(BodyId a, BodyId b) {
+  const auto body = [&](BodyId id) -> const Body& {
+    const std::optional<int> i = row(id);
+    if (!i) throw InvalidInput("never_meet", std::to_string(id.value), "is not in the scene");
+    return bodies[*i];
+  };
+  const Body &first = body(a), &second = body(b);
+  if (a == b)
+    throw InvalidInput("never_meet", "'" + first.name + "' twice", "must be two bodies",
+                       "a body that nothing touches has meets = 0");
+  if (first.is_static && second.is_static)
+    throw InvalidInput("never_meet", "'" + first.name + "' and '" + second.name + "'",
+                       "are both static", "static bodies never meet");
+  const auto pair = std::minmax(a, b);
+  const auto at = std::ranges::lower_bound(never, std::pair<BodyId, BodyId>(pair));
+  if (at == never.end() || *at != std::pair<BodyId, BodyId>(pair)) never.insert(at, pair);
+}
+
 void Scene::remove(BodyId id) {
   const std::optional<int> i = row(id);
   if (!i) throw InvalidInput("body", std::to_string(id.value), "is not in the scene");
   bodies.erase(bodies.begin() + *i);
+  std::erase_if(never, [&](const auto& pair) { return pair.first == id || pair.second == id; });
   std::erase_if(effects, [&](const Effect& effect) { return body_of(effect) == id; });
 }
 

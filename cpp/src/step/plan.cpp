@@ -7,6 +7,8 @@
 
 #include "carom/numerics/tolerance.hpp"
 
+#include "step/pair_filter.hpp"
+
 namespace carom {
 namespace {
 
@@ -32,9 +34,9 @@ int tops(const Scene& scene) {
 }  // namespace
 
 std::string_view name_of(StageKind kind) {
-  constexpr std::string_view names[] = {"gravity", "applied_wrench", "drag",
-                                        "torsion", "pairs",          "contacts",
-                                        "solve",   "integrate",      "sweep"};
+  constexpr std::string_view names[] = {"gravity",   "applied_wrench", "drag",      "torsion",
+                                        "pairs",     "contacts",       "repulsion", "solve",
+                                        "integrate", "sweep"};
   return names[static_cast<int>(kind)];
 }
 
@@ -82,8 +84,13 @@ Plan compile(const Scene& scene, bool wrench_requested) {
   const bool can_meet = moves && bodies >= 2;
   const std::string meet = count(bodies, "shape", "shapes") + ", " + moving;
   const std::string alone = moves ? "a single body has nothing to meet" : "nothing moves";
-  add(StageKind::pairs, can_meet, meet, alone, bodies);
+  const std::string filters = filters_of(scene);
+  add(StageKind::pairs, can_meet, meet + (filters.empty() ? "" : "; filters on: " + filters), alone,
+      bodies);
   add(StageKind::contacts, can_meet, meet, alone, bodies);
+  const int repulsions = effects_of<Repulsion>(scene);
+  add(StageKind::repulsion, repulsions && can_meet, "Repulsion in the scene, " + moving,
+      repulsions ? alone : "no Repulsion in the scene", movers);
   const auto any = [&](auto test) { return std::ranges::any_of(scene.bodies, test); };
   const bool rubs = any([](const Scene::Body& b) { return b.friction > 0; });
   const bool bounces = any([](const Scene::Body& b) { return b.restitution > 0; });

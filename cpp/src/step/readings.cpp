@@ -41,7 +41,8 @@ void Simulation::twists(std::span<double> out) const {
 }
 
 Energy Simulation::energy() const {
-  Energy energy{.dissipated = world_->dissipated, .work = world_->work};
+  Energy energy{
+      .dissipated = world_->dissipated, .work = world_->work, .repulsion = world_->repulsion};
   const Eigen::Vector3d g = gravity_of(*world_);
   for (int i = 0; i < size(); ++i) {
     energy.kinetic += world_->states.kinetic_energy(i);

@@ -21,8 +21,8 @@ double seconds_since(Clock::time_point start) {
 }
 
 using Run = void (*)(World&);
-constexpr Run runners[] = {run_gravity,  run_applied_wrench, run_drag,      run_torsion, run_pairs,
-                           run_contacts, run_solve,          run_integrate, run_sweep};
+constexpr Run runners[] = {run_gravity,  run_applied_wrench, run_drag,  run_torsion,   run_pairs,
+                           run_contacts, run_repulsion,      run_solve, run_integrate, run_sweep};
 
 /// Impulses act at once, before the forces: a body hit now moves at its new speed through the step.
 void take_impulses(World& world) {
@@ -53,6 +53,7 @@ void refresh_plan(World& world) {
   if (!world.plan_is_stale) return;
   world.radius.clear();  // rows may have closed up
   world.plan = compile(world.scene, !world.requests.empty());
+  world.filter.build(world.scene);
   if (!world.asleep.empty())
     std::erase_if(world.plan.movers, [&](int i) { return !world.states.moves[i]; });
   if (world.plan.runs(StageKind::pairs)) measure_bodies(world);
@@ -108,6 +109,10 @@ Report difference(const Report& now, const Report& then) {
   r.rotation.capped -= then.rotation.capped;
   r.rotation.clamped -= then.rotation.clamped;
   r.rotation.not_converged -= then.rotation.not_converged;
+  for (auto count : {&RepulsionReport::gradient, &RepulsionReport::swept_hit,
+                     &RepulsionReport::velocity, &RepulsionReport::kept, &RepulsionReport::pushed,
+                     &RepulsionReport::capped, &RepulsionReport::stagnated})
+    r.repulsion.*count -= then.repulsion.*count;
   for (StageTime& stage : r.stages)
     for (const StageTime& before : then.stages)
       if (before.stage == stage.stage) stage.seconds -= before.seconds;
@@ -150,6 +155,7 @@ Report Simulation::advance(double seconds) {
   const Report before = world_->report;
   world_->report.contact.deepest_overlap = world_->report.contact.residual = 0;
   world_->report.sweep.smallest_gap = SweepReport{}.smallest_gap;
+  world_->report.repulsion.fastest = 0;
   const double end = before.time + seconds;
   // Equal steps that land on the end; a ratio that is whole but for rounding is not split once
   // more.
@@ -166,6 +172,8 @@ Report Simulation::advance(double seconds) {
   total.residual = std::max(total.residual, before.contact.residual);
   double& gap = world_->report.sweep.smallest_gap;
   gap = std::min(gap, before.sweep.smallest_gap);
+  double& fastest = world_->report.repulsion.fastest;
+  fastest = std::max(fastest, before.repulsion.fastest);
   return report;
 }
 

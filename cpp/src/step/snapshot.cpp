@@ -121,6 +121,7 @@ void everything(Io& io, W& world) {
   io.value(world.options.integrator);
   io.value(world.dissipated);
   io.value(world.work);
+  io.value(world.repulsion);
   io.array(world.report.frozen);
   contacts(io, world.contacts);
   io.array(world.solver.memory.newton);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <array>
+#include <span>
 #include <vector>
 
 #include "carom/broad/box_tree.hpp"
@@ -14,6 +15,7 @@
 #include "carom/step/simulation.hpp"
 
 #include "contact/manifold_cache.hpp"
+#include "step/pair_filter.hpp"
 #include "step/sweep.hpp"
 
 namespace carom {
@@ -49,6 +51,14 @@ struct Still {
   std::array<double, 4> orientation{};  ///< x y z w
 };
 
+/// A point that repulsion pushes apart.
+struct Push {
+  std::size_t contact = 0;
+  double target = 0;    ///< m/s, change of the normal velocity
+  double mobility = 0;  ///< 1/kg, along the normal
+  double impulse = 0;   ///< N s
+};
+
 /// What the stages of a step share. Scratch keeps its capacity: a warm step allocates nothing.
 struct World {
   Scene scene;
@@ -59,7 +69,7 @@ struct World {
   std::vector<Request> requests;
   SimulatedClock clock;
   Report report;
-  double dissipated = 0, work = 0;  ///< J since the start
+  double dissipated = 0, work = 0, repulsion = 0;  ///< J since the start
 
   // of the step under way
   double dt = 0;
@@ -83,10 +93,14 @@ struct World {
   std::vector<double> swing;        ///< m that turning can carry a point of the body in the step
   std::vector<double> reach;        ///< m a point of the body can travel in the step
   BoxTree box_tree;                 ///< keeps the pairs of the step
+  PairFilter filter;                ///< of the scene's groups and named pairs
+  std::span<const BodyPair> pairs;  ///< of the step: those that may meet
   std::vector<Manifold> manifolds;  ///< of the pair at hand
   std::vector<Contact> contacts, contacts_before;
   std::vector<std::size_t> warm;  ///< scratch of warm starts
   SweepWork sweep;
+  std::vector<std::size_t> warm;
+  std::vector<Push> pushes;  ///< scratch of the repulsion
 };
 
 /// Of all UniformGravity effects, m/s^2.
@@ -101,6 +115,7 @@ void run_drag(World& world);
 void run_torsion(World& world);
 void run_pairs(World& world);
 void run_contacts(World& world);
+void run_repulsion(World& world);
 void run_solve(World& world);
 void run_integrate(World& world);
 void run_sweep(World& world);

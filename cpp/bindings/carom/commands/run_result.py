@@ -21,7 +21,7 @@ def as_text(scene: str, simulation: Simulation, start: Energy) -> None:
     )
     print(
         f"\nenergy J: kinetic {number(energy.kinetic)}, potential {number(energy.potential)}, "
-        f"dissipated {number(energy.dissipated)}, work {number(energy.work)}; "
+        f"dissipated {number(energy.dissipated)}, work {number(energy.work)}{_pushed(simulation)}; "
         f"unaccounted {number(energy.balance - start.balance)}"
     )
     contact = report.contact
@@ -76,6 +76,7 @@ def as_json(scene: str, simulation: Simulation, start: Energy) -> None:
                 "potential_j": energy.potential,
                 "dissipated_j": energy.dissipated,
                 "work_j": energy.work,
+                "repulsion_j": energy.repulsion,
                 "unaccounted_j": energy.balance - start.balance,
             },
             "contact": {
@@ -104,6 +105,13 @@ def as_json(scene: str, simulation: Simulation, start: Energy) -> None:
             ],
         },
     )
+
+
+def _pushed(simulation: Simulation) -> str:
+    """The repulsion's entry of the ledger, where a scene has one."""
+    if all(stage.stage != "repulsion" for stage in simulation.plan()):
+        return ""
+    return f", repulsion {number(simulation.energy().repulsion)}"
 
 
 def _rows(simulation: Simulation) -> list[list[str]]:

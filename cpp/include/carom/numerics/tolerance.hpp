@@ -109,6 +109,12 @@ inline constexpr double sdf_settled = 1e-9;
 /// over the ridge and tilt it; where a flat wall is met at a slant, the other answer is the same.
 inline constexpr double opposing = 0.5;
 
+/// Sweeps over the pushes of a step, and the change, relative to the largest speed asked for, at
+/// which they end. Four corners of a box on a plane close by half a sweep, so 1e-9 takes about 30;
+/// a pile takes more than anyone waits for, and the next step goes on.
+inline constexpr int repulsion_sweeps = 64;
+inline constexpr double repulsion_settled = 1e-9;
+
 /// Casts end this near the surface, m (rays: times the size of the shape), and after so many steps.
 /// A grazing cast that ends by the cap reports a hit: short of the surface, never beyond it.
 inline constexpr double cast_gap = 1e-10;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "carom/bodies/ids.hpp"
@@ -38,6 +39,10 @@ struct BodyDefinition {
   double rolling_resistance = 0.0;
   double spinning_resistance = 0.0;
   Ccd ccd = Ccd::automatic;
+  /// Bits of the groups the body belongs to, and of those it meets. Two bodies meet where each
+  /// belongs to a group that the other meets; `meets` 0: a ghost, which nothing touches.
+  std::uint32_t groups = 1;
+  std::uint32_t meets = 0xffffffff;
 };
 
 /// The body's mass properties by whichever way it gives them. Zero mass for a static body.
@@ -53,10 +58,16 @@ struct Scene {
   };
   std::vector<Body> bodies;
   std::vector<Effect> effects;
+  /// Pairs that never meet, the lower id first, ascending; see never_meet.
+  std::vector<std::pair<BodyId, BodyId>> never;
 
   /// Checks and appends. @throws InvalidInput naming the body, the field and the rule; the scene is
   /// then unchanged
   BodyId add(BodyDefinition body);
+  /// Lets two bodies pass through each other, whatever their groups. Saying it twice is once.
+  /// @throws InvalidInput for a body that is not in the scene, a body and itself, or two static
+  /// ones
+  void never_meet(BodyId a, BodyId b);
   /// Ids are never used again. @throws InvalidInput when there is no such body
   void remove(BodyId id);
   [[nodiscard]] std::optional<BodyId> find(std::string_view name) const;

@@ -9,15 +9,18 @@
 
 namespace carom {
 
-/// Where the energy is and where it went, J. kinetic + potential + dissipated - work is constant,
-/// up to the error of the integration: the ledger that shows it.
+/// Where the energy is and where it went, J. kinetic + potential + dissipated - work - repulsion is
+/// constant, up to the error of the integration: the ledger that shows it.
 struct Energy {
   double kinetic = 0;
   double potential = 0;
   double dissipated = 0;  ///< by contacts and friction since the start
   double work = 0;        ///< put in by applied wrenches and impulses since the start
+  double repulsion = 0;   ///< put in by the lecture's repulsion since the start; see Repulsion
 
-  [[nodiscard]] double balance() const { return kinetic + potential + dissipated - work; }
+  [[nodiscard]] double balance() const {
+    return kinetic + potential + dissipated - work - repulsion;
+  }
 };
 
 /// What contacts did in a step, or in a call of advance: extremes and sums over its steps.
@@ -31,6 +34,19 @@ struct ContactReport {
   int direct_islands = 0;       ///< of these, solved directly; the others took small steps
   int direct_bodies = 0;        ///< in them
   int asleep = 0;               ///< bodies at rest without cost
+};
+
+/// What the lecture's repulsion did, added up; all zero without a Repulsion in the scene. The first
+/// four: where the normals of centres inside distance grids came from.
+struct RepulsionReport {
+  std::int64_t gradient = 0;   ///< of the distance
+  std::int64_t swept_hit = 0;  ///< at the point where the path met the surface
+  std::int64_t velocity = 0;   ///< opposite of the motion
+  std::int64_t kept = 0;       ///< of the step before: inside all along
+  std::int64_t pushed = 0;     ///< contact points
+  std::int64_t capped = 0;     ///< steps whose pushes stopped at tolerance::repulsion_sweeps
+  std::int64_t stagnated = 0;  ///< steps whose pushes stopped as rounding left them no change
+  double fastest = 0;          ///< m/s, largest speed given to a point
 };
 
 /// What turning the bodies took, added up.
@@ -74,6 +90,7 @@ struct Report {
   ContactReport contact;
   RotationReport rotation;
   SweepReport sweep;
+  RepulsionReport repulsion;
   std::vector<BodyId> frozen;  ///< held at their last good pose since their state went non-finite
 
   [[nodiscard]] bool ok() const {

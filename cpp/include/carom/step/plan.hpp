@@ -15,6 +15,7 @@ enum class StageKind {
   torsion,
   pairs,
   contacts,
+  repulsion,
   solve,
   integrate,
   sweep

@@ -118,7 +118,7 @@ void run_contacts(World& world) {
     const Eigen::Quaterniond q = world.states.orientation[i] * world.states.axes_b[i].conjugate();
     return contact::ManifoldCache::Placed{world.scene.bodies[i].shape, world.frames[i], q};
   };
-  for (const BodyPair& pair : world.box_tree.pairs()) {
+  for (const BodyPair& pair : world.pairs) {
     world.manifolds.clear();
     world.manifold_cache.collide(
         pair.a, pair.b, placed(pair.a), placed(pair.b), margin_of(world, pair.a, pair.b),

@@ -33,7 +33,7 @@ void run_pairs(World& world) {
     world.boxes[i] =
         bounds(world.scene.bodies[i].shape, pose).inflated(0.5 * tolerance::contact_margin + reach);
   }
-  world.box_tree.update(world.boxes, s.moves);
+  world.pairs = world.filter(world.box_tree.update(world.boxes, s.moves));
 }
 
 }  // namespace carom

@@ -113,7 +113,7 @@ bool wake_touched(World& world) {
   bool any = false;
   for (bool again = true; again;) {
     again = false;
-    for (const BodyPair& pair : world.box_tree.pairs()) {
+    for (const BodyPair& pair : world.pairs) {
       const int row = sleeps(world, pair.a) ? pair.a : sleeps(world, pair.b) ? pair.b : -1;
       const int other = row == pair.a ? pair.b : pair.a;
       if (row < 0 || !world.states.moves[other]) continue;
