@@ -93,7 +93,21 @@ void bind_made_shapes(py::module_& m) {
           "error", [](const Sdf& s) { return s.grid->error; },
           "m, largest error met at the centres of cells near the surface")
       .def_property_readonly(
-          "spacing", [](const Sdf& s) { return s.grid->spacing; }, "m, cell size");
+          "spacing", [](const Sdf& s) { return s.grid->spacing; }, "m, cell size")
+      .def_property_readonly(
+          "vertices",
+          [](const Sdf& s) {
+            const std::shared_ptr<const TriangleMesh> mesh(s.grid, &s.grid->surface->mesh);
+            return view(mesh->vertices, mesh);
+          },
+          "(V, 3) m, of the surface where the distance is zero")
+      .def_property_readonly(
+          "faces",
+          [](const Sdf& s) {
+            const std::shared_ptr<const TriangleMesh> mesh(s.grid, &s.grid->surface->mesh);
+            return view(mesh->faces, mesh);
+          },
+          "(F, 3) vertex indices");
   py::class_<HeightField>(m, "HeightField", "Terrain over a grid, solid below. Static only.")
       .def(py::init([](const Eigen::Ref<const HeightField::Heights>& heights, double spacing) {
              return HeightField(heights, spacing);
@@ -122,14 +136,22 @@ void bind_made_shapes(py::module_& m) {
            }),
            "shape"_a, "position"_a = py::make_tuple(0.0, 0.0, 0.0),
            "orientation"_a = py::make_tuple(0.0, 0.0, 0.0, 1.0),
-           "position: (3,) m; orientation: (4,) x y z w; in the body frame.");
+           "position: (3,) m; orientation: (4,) x y z w; in the body frame.")
+      .def_readonly("shape", &CompoundPart::shape)
+      .def_property_readonly(
+          "position", [](const CompoundPart& p) { return p.pose.position; }, "(3,) m")
+      .def_property_readonly(
+          "orientation", [](const CompoundPart& p) { return p.pose.orientation.coeffs(); },
+          "(4,) x y z w");
   compound
       .def(py::init([](const std::vector<CompoundPart>& parts) {
              return checked(Compound(parts), "Compound");
            }),
            "parts"_a, "parts: a list of Part.")
       .def_property_readonly(
-          "size", [](const Compound& c) { return c.parts->size(); }, "number of parts");
+          "size", [](const Compound& c) { return c.parts->size(); }, "number of parts")
+      .def_property_readonly(
+          "parts", [](const Compound& c) { return *c.parts; }, "copies, in order");
 }
 
 }  // namespace

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 #include <memory>
-#include <mutex>
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include "carom/numerics/invalid_input.hpp"
-#include "carom/step/queries.hpp"
 #include "carom/step/simulation.hpp"
 
 #include "body_arguments.hpp"
 #include "module.hpp"
+#include "shared_simulation.hpp"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -35,35 +34,7 @@ struct pybind11::detail::type_caster<StageList> {
 
 namespace {
 
-/// A simulation that other Python threads may read while one steps it without the GIL.
-class Shared {
- public:
-  Shared(const Scene& scene, const SimulationOptions& options) : simulation_(scene, options) {}
-
-  /// Runs `work(simulation)` alone, with the GIL held. Waits for the other thread without the GIL,
-  /// or that thread could never finish.
-  template <class Work>
-  auto with(Work work) {
-    std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock.owns_lock()) {
-      py::gil_scoped_release release;
-      lock.lock();
-    }
-    return work(simulation_);
-  }
-  /// The same without the GIL: for work that touches no Python object.
-  template <class Work>
-  auto without_gil(Work work) {
-    py::gil_scoped_release release;
-    const std::lock_guard lock(mutex_);
-    return work(simulation_);
-  }
-
- private:
-  Simulation simulation_;
-  std::mutex mutex_;
-};
-
+using python::Shared;
 using Class = py::class_<Shared>;
 
 /// One row of contacts(), laid out as numpy reads it.
@@ -378,88 +349,6 @@ void bind_saving(Class& cls) {
       });
 }
 
-/// Queries run without the GIL on poses as they stand; rows of the answer are rows of the query.
-void bind_queries(Class& cls) {
-  cls.def(
-      "raycast",
-      [](Shared& self, const ArrayLike& origins, const ArrayLike& directions, double reach) {
-        const auto from = python::rows3(origins, "origins"),
-                   to = python::rows3(directions, "directions");
-        if (from.rows() != to.rows())
-          throw InvalidInput("directions", std::to_string(to.rows()) + " rows",
-                             "must be as many as origins");
-        std::vector<BodyHit> hits;
-        self.without_gil([&](Simulation& s) {
-          const SceneQueries queries(s);
-          for (Eigen::Index i = 0; i < from.rows(); ++i)
-            hits.push_back(queries.ray(from.row(i).transpose(), to.row(i).transpose(), reach));
-        });
-        const auto n = static_cast<py::ssize_t>(hits.size());
-        py::array_t<double> distance(n), normal({n, py::ssize_t{3}});
-        py::array_t<int> row(n);
-        for (py::ssize_t i = 0; i < n; ++i) {
-          distance.mutable_at(i) = hits[i].cast.distance;
-          row.mutable_at(i) = hits[i].row;
-          for (int k = 0; k < 3; ++k) normal.mutable_at(i, k) = hits[i].cast.normal[k];
-        }
-        return py::make_tuple(distance, row, normal);
-      },
-      "origins"_a, "directions"_a, "max_distance"_a = std::numeric_limits<double>::infinity(),
-      "First body along each ray. origins, directions: (N, 3), directions of any length > 0.\n"
-      "Returns distance (N,) m (inf where none), row (N,) of the body (-1), normal (N, 3).");
-  cls.def(
-      "shape_cast",
-      [](Shared& self, const Shape& shape, const ArrayLike& position, const ArrayLike& direction,
-         const ArrayLike& orientation, double reach) {
-        const Pose start{vector3(position, "position"),
-                         python::orientation(orientation, "orientation")};
-        const Eigen::Vector3d way = vector3(direction, "direction");
-        const BodyHit hit = self.without_gil(
-            [&](Simulation& s) { return SceneQueries(s).shape(shape, start, way, reach); });
-        return py::make_tuple(hit.cast.distance, hit.row, hit.cast.normal);
-      },
-      "shape"_a, "position"_a, "direction"_a,
-      "orientation"_a = ArrayLike{py::make_tuple(0.0, 0.0, 0.0, 1.0)},
-      "max_distance"_a = std::numeric_limits<double>::infinity(),
-      "How far a shape goes without turning until it meets a body: distance, row, normal.");
-  cls.def(
-      "overlaps",
-      [](Shared& self, const Shape& shape, const ArrayLike& position,
-         const ArrayLike& orientation) {
-        const Pose pose{vector3(position, "position"),
-                        python::orientation(orientation, "orientation")};
-        return self.without_gil(
-            [&](Simulation& s) { return SceneQueries(s).overlaps(shape, pose); });
-      },
-      "shape"_a, "position"_a, "orientation"_a = ArrayLike{py::make_tuple(0.0, 0.0, 0.0, 1.0)},
-      "Rows of the bodies that a shape placed there touches.");
-  cls.def(
-      "closest",
-      [](Shared& self, const ArrayLike& points, double reach) {
-        const auto at = python::rows3(points, "points");
-        std::vector<BodyPoint> found;
-        self.without_gil([&](Simulation& s) {
-          const SceneQueries queries(s);
-          for (Eigen::Index i = 0; i < at.rows(); ++i)
-            found.push_back(queries.closest(at.row(i).transpose(), reach));
-        });
-        const auto n = static_cast<py::ssize_t>(found.size());
-        py::array_t<double> distance(n), point({n, py::ssize_t{3}});
-        py::array_t<int> row(n);
-        for (py::ssize_t i = 0; i < n; ++i) {
-          distance.mutable_at(i) =
-              found[i].row < 0 ? std::numeric_limits<double>::infinity() : found[i].distance;
-          row.mutable_at(i) = found[i].row;
-          for (int k = 0; k < 3; ++k) point.mutable_at(i, k) = found[i].point[k];
-        }
-        return py::make_tuple(distance, row, point);
-      },
-      "points"_a, "reach"_a = std::numeric_limits<double>::infinity(),
-      "Nearest body to each point (N, 3): distance (N,) m, negative inside; row (N,), -1 for "
-      "none;\n"
-      "point (N, 3) on the body.");
-}
-
 }  // namespace
 
 void bind_simulation(py::module_& m) {
@@ -468,5 +357,5 @@ void bind_simulation(py::module_& m) {
   bind_reading(cls);
   bind_changing(cls);
   bind_saving(cls);
-  bind_queries(cls);
+  python::bind_queries(cls);
 }

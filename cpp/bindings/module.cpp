@@ -37,6 +37,7 @@ PYBIND11_MODULE(_core, m) {
   bind_scene(m);
   bind_plan(m);
   bind_report(m);
+  bind_pairs(m);
   bind_simulation(m);
   bind_free_flight(m);
   bind_ccd(m);

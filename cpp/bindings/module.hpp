@@ -14,5 +14,6 @@ void bind_effects(pybind11::module_& m);
 void bind_scene(pybind11::module_& m);
 void bind_plan(pybind11::module_& m);
 void bind_report(pybind11::module_& m);
+void bind_pairs(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_free_flight(pybind11::module_& m);

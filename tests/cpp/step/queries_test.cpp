@@ -121,3 +121,92 @@ TEST(ClosestPoints, GiveDistanceAndBody) {
   EXPECT_EQ(inside.row, 1);
   EXPECT_NEAR(inside.distance, -0.1, exact);
 }
+
+TEST(Segments, GiveTheShareOfTheWay) {
+  const Simulation simulation(row_of_shapes());
+  const SceneQueries queries(simulation);
+  const BodyHit hit = queries.segment({2, 0, 2.5}, {2, 0, -1.5});  // the box's top lies at 0.5
+  EXPECT_EQ(hit.row, 1);
+  EXPECT_NEAR(hit.cast.distance, 0.5, exact);
+  EXPECT_EQ(queries.segment({2, 0, 2.5}, {2, 0, 0.501}).row, -1);
+  const BodyHit inside = queries.segment({2, 0, 0}, {2, 0, 0});  // of no length, in the box
+  EXPECT_EQ(inside.row, 1);
+  EXPECT_EQ(inside.cast.distance, 0);
+}
+
+TEST(SceneQueries, AskOnlyTheGroupsNamed) {
+  Scene scene = row_of_shapes();
+  scene.bodies[1].groups = 4;
+  const Simulation simulation(scene);
+  EXPECT_EQ(SceneQueries(simulation, 4).ray({2, 0, 5}, {0, 0, -1}, 100).row, 1);
+  EXPECT_EQ(SceneQueries(simulation, 1).ray({2, 0, 5}, {0, 0, -1}, 100).row, 7);  // the plane
+  EXPECT_EQ(SceneQueries(simulation, 2).ray({2, 0, 5}, {0, 0, -1}, 100).row, -1);
+}
+
+TEST(ClosestToShape, NamesBodyAndBothPoints) {
+  const Simulation simulation(row_of_shapes());
+  const SceneQueries queries(simulation);
+  const NearestBody near = queries.closest(Sphere{0.2}, at(2, 1.5, 0), 10);
+  EXPECT_EQ(near.row, 1);
+  EXPECT_NEAR(near.points.distance, 0.8, exact);
+  EXPECT_NEAR((near.points.point_a - Vector3d(2, 0.5, 0)).norm(), 0, exact);
+  EXPECT_NEAR((near.points.point_b - Vector3d(2, 1.3, 0)).norm(), 0, exact);
+  EXPECT_EQ(queries.closest(Sphere{0.2}, at(2, 1.5, 5), 0.5).row, -1);
+}
+
+TEST(ContactList, HoldsEveryBodyTouched) {
+  const Simulation simulation(row_of_shapes());
+  const SceneQueries queries(simulation);
+  // A bar across, its ends 0.02 m inside the ball and the box.
+  const auto found = queries.contacts(Box{{1.04, 0.4, 0.4}}, at(1, 0, 0), 0.0);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].row, 0);
+  EXPECT_EQ(found[1].row, 1);
+  EXPECT_NEAR(found[0].manifold.normal.x(), 1, exact);   // from the ball to the bar
+  EXPECT_NEAR(found[1].manifold.normal.x(), -1, exact);  // from the box to the left
+}
+
+TEST(SceneQueries, AgreeWithAskingEveryBody) {
+  // The tree only leaves out what cannot be met: the answers are those of a plain loop.
+  std::mt19937_64 random(31);
+  Scene scene;
+  for (int i = 0; i < 60; ++i) {
+    BodyDefinition body;
+    body.shape = i % 3 == 0   ? Shape(Sphere{0.2})
+                 : i % 3 == 1 ? Shape(Box{{0.3, 0.4, 0.5}})
+                              : Shape(Capsule{0.1, 0.5});
+    body.pose = random_pose(random, 2);
+    body.is_static = true;
+    scene.add(body);
+  }
+  const Simulation simulation(scene);
+  const SceneQueries queries(simulation);
+  int hits = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vector3d from = random_vector(random, 3), way = random_vector(random, 3);
+    const Vector3d d = way.normalized();
+    CastHit best;
+    int row = -1;
+    double nearest = 1e9;
+    int nearest_row = -1;
+    for (int i = 0; i < 60; ++i) {
+      const Pose pose = simulation.states().pose(i);
+      const CastHit hit = ray_cast(scene.bodies[i].shape, pose, from, d, 100);
+      if (hit.hit && hit.distance < best.distance) best = hit, row = i;
+      const double gap =
+          closest_points(scene.bodies[i].shape, pose, Sphere{0}, {from, {1, 0, 0, 0}}, 100)
+              .distance;
+      if (gap < nearest) nearest = gap, nearest_row = i;
+    }
+    const BodyHit hit = queries.ray(from, way, std::numeric_limits<double>::infinity());
+    ASSERT_EQ(hit.row, row);
+    if (row >= 0) {
+      EXPECT_NEAR(hit.cast.distance, best.distance, exact);
+      ++hits;
+    }
+    const BodyPoint point = queries.closest(from, std::numeric_limits<double>::infinity());
+    EXPECT_NEAR(point.distance, nearest, exact);
+    EXPECT_EQ(point.row, nearest_row);
+  }
+  EXPECT_GT(hits, 20);
+}
