@@ -73,6 +73,37 @@ Vector3d nearest_vertex(const SdfGrid& grid, const Aabb& near, const Gap& gap, d
   return best;
 }
 
+/// Where one body holds the other's whole surface within it, no point of a surface overlaps. A way
+/// out all the same: along the axes of both and the line of their centres, the one that parts them
+/// soonest.
+/// @param lowest  point of the core of b lowest along a direction
+template <class Lowest>
+void part(const SdfGrid& a, const Frame& b_in_a, const Vector3d& centre_b, double radius,
+          const Lowest& lowest) {
+  const auto& vertices = a.surface->mesh.vertices;
+  Touch best;
+  best.gap = -std::numeric_limits<double>::infinity();
+  const auto consider = [&](const Vector3d& n) {
+    const Vector3d x = lowest(n);
+    const double gap = n.dot(x) - radius - (vertices * n).maxCoeff();
+    if (gap > best.gap) best = {x, n, gap};
+  };
+  for (int i = 0; i < 3; ++i)
+    for (const double sign : {1.0, -1.0}) {
+      consider(sign * Vector3d::Unit(i));
+      consider(sign * b_in_a.rotation.col(i));
+    }
+  const Vector3d across = centre_b - a.surface->tree.nodes[0].box.centre();
+  if (across.norm() > tolerance::sdf_settled * a.spacing) consider(across.normalized());
+  add(best, radius, feature::curve(2));
+}
+
+Vector3d lowest_vertex(const MeshSurface& surface, const Frame& frame, const Vector3d& n) {
+  Eigen::Index row;
+  (surface.mesh.vertices * (frame.rotation.transpose() * n)).minCoeff(&row);
+  return frame * Vector3d(surface.mesh.vertices.row(row).transpose());
+}
+
 Aabb bounds_of(const Convex& body, const Frame& frame) {
   Aabb box;
   for (int i = 0; i < 3; ++i)
@@ -120,8 +151,8 @@ void sdf_convex(const SdfGrid& a, const Convex& b, const Frame& b_in_a, double m
   }
   // A ball needs no more than its centre; others may meet the grid between their corners.
   const bool ball = b.kind == Convex::Kind::points && b.corners().size() == 1;
+  double least = std::numeric_limits<double>::infinity();
   if (!ball) {
-    double least;
     const Vector3d v = nearest_vertex(
         a, near.inflated(margin), [&](const Vector3d& q) { return gap_to(q).distance; }, least);
     if (least < std::numeric_limits<double>::infinity()) offer(closest(v), 0);
@@ -136,6 +167,10 @@ void sdf_convex(const SdfGrid& a, const Convex& b, const Frame& b_in_a, double m
       add(best, b.radius, feature::curve(1));
     }
   }
+  if (found.empty() && least < 0)
+    part(a, b_in_a, b_in_a.translation, b.radius, [&](const Vector3d& n) {
+      return Vector3d(b_in_a * b.support(-(b_in_a.rotation.transpose() * n)));
+    });
   emit(found, tolerance::similar_normal, out);
 }
 
@@ -178,6 +213,8 @@ void sdf_surface(const SdfGrid& a, const MeshSurface& b, const Frame& b_in_a, do
     best = settle(a, best, closest);
     if (best.gap <= margin) add(best, 0, feature::curve(1));
   }
+  if (found.empty() && least < 0 && b.faults.closed())
+    part(a, b_in_a, centre_b, 0, [&](const Vector3d& n) { return lowest_vertex(b, b_in_a, n); });
   emit(found, tolerance::similar_normal, out);
 }
 
@@ -205,6 +242,11 @@ void sdf_sdf(const SdfGrid& a, const SdfGrid& b, const Frame& b_in_a, double mar
   };
   const Touch best = settle(a, touch(a, closest(q)), closest);
   if (best.gap <= margin) add(best, 0, feature::curve(1));
+  if (best.gap > -a.spacing && a.sample(centre, unused) < -a.spacing) {
+    found.clear();  // surfaces that lie in one another, or within
+    part(a, b_in_a, centre, 0,
+         [&](const Vector3d& n) { return lowest_vertex(*b.surface, b_in_a, n); });
+  }
   emit(found, tolerance::similar_normal, out);
 }
 
