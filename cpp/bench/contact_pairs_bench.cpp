@@ -1,109 +1,123 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the table of all pairs of shapes: `contact_pairs_bench > pairs.md`. Errors are the largest
-// met; "search" is against a plain search over directions and is given for convex pairs; "swapped"
-// is collide(a, b) against collide(b, a); "moved" is both carried along by one rigid motion.
-#include <chrono>
+// The narrow phase on settled piles, one thread: which share of the pairs skips it, and what one of
+// the others costs. `contact_pairs_bench [bodies = 1000]` prints a table. (Every pair of shapes:
+// `carom cost --study pairs`.)
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <random>
+#include <vector>
 
-#include "carom/geometry/sdf.hpp"
+#include "carom/broad/box_tree.hpp"
+#include "carom/narrow/contacts.hpp"
+#include "carom/numerics/tolerance.hpp"
+#include "carom/step/simulation.hpp"
 
-#include "../../tests/cpp/narrow/shapes_for_tests.hpp"
-#include "../../tests/cpp/narrow/support_reference.hpp"
+#include "../src/contact/manifold_cache.hpp"
 
 using namespace carom;
-using namespace carom::testing;
 using Eigen::Vector3d;
 
 namespace {
 
-std::vector<Shape> every_shape() {
-  std::mt19937_64 random(3);
-  TriangleMesh::Vertices cloud(40, 3);
-  for (int i = 0; i < 40; ++i) cloud.row(i) = 0.5 * random_vector(random).normalized().transpose();
-  const auto ball = [](const Vector3d& p) { return p.norm() - 0.4; };
-  HeightField::Heights hills(8, 8);
-  for (int i = 0; i < 8; ++i)
-    for (int j = 0; j < 8; ++j) hills(i, j) = 0.1 * std::sin(i) * std::cos(j);
-  TriangleMesh::Vertices beads(3, 3);
-  beads << -0.3, 0, 0, 0, 0.1, 0, 0.3, 0, 0;
-  return {Sphere{0.4},
-          Box{{0.5, 0.7, 0.9}},
-          Plane{{0.1, 0.2, 1}, 0.1},
-          Mesh(l_block()),
-          Capsule{0.25, 0.6},
-          Cylinder{0.35, 0.8},
-          Cone{0.4, 0.9},
-          Ellipsoid{{0.3, 0.4, 0.6}},
-          ConvexHull(cloud),
-          Sdf{std::make_shared<const SdfGrid>(SdfGrid::from_function(
-              ball, {Vector3d::Constant(-0.4), Vector3d::Constant(0.4)}, 0.04))},
-          HeightField(hills, 0.2),
-          ParticleSet{beads, 0.15},
-          Compound({{Box{{0.4, 0.4, 0.4}}, {}},
-                    {Sphere{0.2}, {Vector3d(0.3, 0, 0), Eigen::Quaterniond::Identity()}}})};
+double cpu_seconds() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Pose carried(const Pose& by, const Pose& pose) {
-  return {by * pose.position, by.orientation * pose.orientation};
+/// Bodies dropped into a square pit as the peers' driver does, cells of 1.1 m with some disorder.
+Scene pile(int bodies, const Shape& shape) {
+  Scene scene;
+  scene.add({.name = "ground", .shape = Plane{}, .is_static = true});
+  const double wide = 6;
+  for (int side = 0; side < 4; ++side) {
+    const double angle = side * 1.5707963267948966;
+    const Vector3d out(std::cos(angle), std::sin(angle), 0);
+    scene.add({.shape = Plane{-out, -wide}, .is_static = true});
+  }
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> jitter(-0.05, 0.05);
+  for (int i = 0; i < bodies; ++i) {
+    const double x = jitter(random), y = jitter(random);
+    scene.add({.shape = shape,
+               .pose = {.position = {1.1 * (i % 10) - 4.95 + x, 1.1 * (i / 10 % 10) - 4.95 + y,
+                                     0.6 + 1.1 * (i / 100)}}});
+  }
+  scene.effects.emplace_back(UniformGravity{{0, 0, -9.81}});
+  return scene;
 }
 
-struct Row {
-  int met = 0;
-  double search = -1, swapped = 0, moved = 0, nanoseconds = 0;
+struct Measured {
+  double skipped = 0;      // share of the pairs, over a second of steps
+  double nanoseconds = 0;  // of one collide() of a pair of movers, least of ten passes
+  std::size_t pairs = 0;   // of movers, at the end
 };
 
-bool is_static(const Shape& s) {
-  return std::holds_alternative<Plane>(s) || std::holds_alternative<HeightField>(s);
-}
-
-Row measure(const Shape& a, const Shape& b, std::mt19937_64& random) {
-  Row row;
-  const double margin = 0.02;
+Measured measure(int bodies, const Shape& shape, double settle) {
+  Simulation simulation(pile(bodies, shape));
+  simulation.advance(settle);
+  BoxTree tree;
+  contact::ManifoldCache cache;
+  std::vector<Aabb> boxes(simulation.size());
   std::vector<Manifold> out;
-  const bool searchable = !std::isnan(support(a, {}, Vector3d::UnitZ())) &&
-                          !std::isnan(support(b, {}, Vector3d::UnitZ()));
-  std::chrono::nanoseconds spent{0};
-  int asked = 0;
-  for (int trial = 0; trial < 60; ++trial) {
-    Pose pa = random_pose(random, 0.2);
-    const Pose pb = random_pose(random, 0.9);
-    out.clear();
-    const auto start = std::chrono::steady_clock::now();
-    collide(a, pa, b, pb, margin, out);
-    spent += std::chrono::steady_clock::now() - start;
-    ++asked;
-    const double ab = deepest(out);
-    if (out.empty()) continue;
-    ++row.met;
-    row.swapped = std::max(row.swapped, std::abs(ab - deepest(contacts(b, pb, a, pa, margin))));
-    const Pose by = random_pose(random, 3);
-    const double there = deepest(contacts(a, carried(by, pa), b, carried(by, pb), margin));
-    row.moved = std::max(row.moved, std::abs(ab - there));
-    if (searchable && trial < 12) {
-      const double reference = largest_gap(a, pa, b, pb, random, 600, 3);
-      row.search = std::max(
-          {row.search, reference - ab, std::abs(ab - gap(a, pa, b, pb, out.front().normal))});
+  const double radius = bounding_radius(shape);
+  long asked = 0, kept = 0;
+  for (int step = 0; step < 61; ++step) {
+    const BodyStates& s = simulation.states();
+    std::vector<double> reach(s.size(), 0);
+    for (int i = 0; i < s.size(); ++i) {
+      if (s.moves[i])
+        reach[i] = simulation.dt() * (s.velocity[i].norm() + s.angular_velocity(i).norm() * radius);
+      boxes[i] = bounds(simulation.scene().bodies[i].shape, s.pose(i))
+                     .inflated(0.5 * tolerance::contact_margin + reach[i]);
     }
+    const std::vector<contact::ManifoldCache::Pair> before = cache.pairs;
+    cache.begin_step();
+    for (const BodyPair& p : tree.update(boxes, s.moves)) {
+      out.clear();
+      cache.collide(p.a, p.b, simulation.scene().bodies[p.a].shape, s.pose(p.a),
+                    simulation.scene().bodies[p.b].shape, s.pose(p.b),
+                    tolerance::contact_margin + reach[p.a] + reach[p.b], radius, out);
+    }
+    if (step > 0)  // what was carried along keeps the pose it was found at
+      for (const auto& now : cache.pairs) {
+        const auto old = std::lower_bound(
+            before.begin(), before.end(), now,
+            [](const auto& l, const auto& r) { return std::pair(l.a, l.b) < std::pair(r.a, r.b); });
+        ++asked;
+        kept += old != before.end() && old->a == now.a && old->b == now.b &&
+                old->offset == now.offset && old->rotation == now.rotation;
+      }
+    simulation.step();
   }
-  row.nanoseconds = static_cast<double>(spent.count()) / asked;
-  return row;
+  std::vector<BodyPair> movers;
+  for (const BodyPair& p : tree.pairs())
+    if (simulation.states().moves[p.a] && simulation.states().moves[p.b]) movers.push_back(p);
+  double least = 1e9;
+  for (int pass = 0; pass < 10; ++pass) {
+    const double start = cpu_seconds();
+    for (const BodyPair& p : movers) {
+      out.clear();
+      collide(shape, simulation.states().pose(p.a), shape, simulation.states().pose(p.b),
+              tolerance::contact_margin, out);
+    }
+    least = std::min(least, cpu_seconds() - start);
+  }
+  return {asked ? static_cast<double>(kept) / static_cast<double>(asked) : 0.0,
+          1e9 * least / static_cast<double>(movers.size()), movers.size()};
 }
 
 }  // namespace
 
-int main() {
-  const auto shapes = every_shape();
-  std::mt19937_64 random(29);
-  std::printf("| a | b | met of 60 | search, m | swapped, m | moved, m | time, us |\n");
-  std::printf("|---|---|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < shapes.size(); ++i)
-    for (std::size_t j = i; j < shapes.size(); ++j) {
-      if (is_static(shapes[i]) && is_static(shapes[j])) continue;
-      const Row r = measure(shapes[i], shapes[j], random);
-      char search[32] = "";
-      if (r.search >= 0) std::snprintf(search, sizeof search, "%.0e", r.search);
-      std::printf("| %s | %s | %d | %s | %.0e | %.0e | %.2f |\n", name_of(shapes[i]).data(),
-                  name_of(shapes[j]).data(), r.met, search, r.swapped, r.moved,
-                  r.nanoseconds / 1000);
-    }
+int main(int count, char** arguments) {
+  const int bodies = count > 1 ? std::atoi(arguments[1]) : 1000;
+  const Measured boxes = measure(bodies, Box{}, 8), balls = measure(bodies, Sphere{0.5}, 8);
+  std::printf("| settled pile of %d | pairs of movers | skip the narrow phase | one pair, ns |\n",
+              bodies);
+  std::printf("|---|---|---|---|\n");
+  std::printf("| boxes | %zu | %.1f %% | %.0f |\n", boxes.pairs, 100 * boxes.skipped,
+              boxes.nanoseconds);
+  std::printf("| spheres | %zu | found again each step | %.0f |\n", balls.pairs, balls.nanoseconds);
 }

@@ -123,3 +123,58 @@ def test_a_scene_file_finds_its_meshes_beside_it_and_shares_them(tmp_path):
         carom.InvalidInput, match=r"bad.yaml:2 bodies\[0\].shape.Mesh.path: .*no.stl"
     ):
         carom.Scene.load(tmp_path / "bad.yaml")
+
+
+def _with_fault(fault: str):
+    """A closed box with one fault, and what is said of it."""
+    box = trimesh.creation.box([1, 2, 3])
+    vertices, faces = np.array(box.vertices), np.array(box.faces)
+    if fault == "inside out":
+        return vertices, faces[:, ::-1], "1 part was inside out and turned"
+    if fault == "one face turned":
+        faces[0] = faces[0, ::-1]
+        return vertices, faces, "mixed winding at 3 edges"
+    if fault == "duplicate":
+        return vertices, np.vstack([faces, faces[:1]]), "1 duplicate face was left out"
+    # Two boxes that share one edge, which then has four faces.
+    shift = np.array([1.0, 2.0, 0.0])
+    return (
+        np.vstack([vertices, vertices + shift]),
+        np.vstack([faces, faces + len(vertices)]),
+        "1 edge is shared by four or more faces",
+    )
+
+
+@pytest.mark.parametrize("fault", ["inside out", "one face turned", "duplicate", "non-manifold"])
+@pytest.mark.parametrize("form", ["stl", "ply", "obj"])
+def test_a_fault_is_told_and_what_has_one_answer_is_mended(tmp_path, fault, form):
+    vertices, faces, said = _with_fault(fault)
+    path = tmp_path / f"part.{form}"
+    trimesh.Trimesh(vertices, faces, process=False).export(path)
+    with pytest.warns(UserWarning, match=said):
+        mesh = carom.Mesh.load(path)
+    volume = 12.0 if fault == "non-manifold" else 6.0
+    # Coordinates are whole numbers: a sum of 24 small volumes is exact to rounding.
+    assert trimesh.Trimesh(mesh.vertices, mesh.faces, process=False).volume == pytest.approx(
+        volume, abs=1e-12
+    )
+    # Solid, and its outside outside: a ball 0.1 m over the top face is 0.1 m away.
+    distance, *_ = carom.closest_points(mesh, carom.Sphere(0.5), [[0, 0, 0]], [[0.1, 0.2, 2.1]])
+    assert distance[0] == pytest.approx(0.1, abs=1e-12)
+
+
+def test_an_open_mesh_from_a_file_holds_a_ball_on_either_side(tmp_path):
+    path = tmp_path / "sheet.stl"
+    flat = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float)
+    trimesh.Trimesh(flat, [[0, 1, 2], [0, 2, 3]], process=False).export(path)
+    with pytest.warns(UserWarning, match="sheet.stl is not closed"):
+        sheet = carom.Mesh.load(path)
+    for side in (1, -1):
+        scene = carom.Scene()
+        scene.effects.append(carom.UniformGravity([0, 0, -9.81 * side]))
+        scene.add(sheet, static=True)
+        scene.add(carom.Sphere(0.1), position=[0.2, 0.1, side * 0.5])
+        simulation = carom.Simulation(scene)
+        simulation.advance(2)
+        # The solver lets a soft contact sink by 0.4 mm at most (tolerance::soft_sink).
+        assert simulation.poses()[1, 2] == pytest.approx(side * 0.1, abs=5e-4)

@@ -187,3 +187,20 @@ def test_a_place_that_cannot_be_written_is_refused(tmp_path):
 def mixed_moments():
     scene, poses = mixed()
     return scene, [poses]
+
+
+def test_a_compound_is_drawn_part_by_part_and_a_distance_grid_by_its_surface():
+    quarter = [0, 0, np.sqrt(0.5), np.sqrt(0.5)]
+    parts = [
+        carom.Part(carom.Box([2, 1, 1]), [0, 5, 0], quarter),
+        carom.Part(carom.Sphere(0.5), [0, 0, 3]),
+    ]
+    vertices, faces = outline(carom.Compound(parts))
+    assert faces.max() == len(vertices) - 1
+    # The box turned by a quarter is 1 x 2 m about (0, 5); the ball ends at 3.5.
+    assert vertices.min(axis=0) == pytest.approx([-0.5, -0.5, -0.5])
+    assert vertices.max(axis=0) == pytest.approx([0.5, 6, 3.5])
+    cube = carom.Mesh(*outline(carom.Box([1, 1, 1])))
+    grid = carom.Sdf(cube, 0.1)
+    assert np.abs(np.array(grid.vertices)).max() == pytest.approx(0.5, abs=grid.error + 1e-9)
+    assert outline(grid)[1].shape[1] == 3

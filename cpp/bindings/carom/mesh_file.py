@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from carom._core import Mesh
+from carom._core import Mesh, MeshDiagnosis, mend_mesh
 from carom.errors import InvalidInput, MissingDependency
 
 IMPLAUSIBLE_M = 100.0
@@ -22,9 +22,15 @@ def load(path: str | os.PathLike[str], scale: float = 1.0) -> Mesh:
     """Reads a mesh file. scale: m per unit of the file, > 0.
 
     Corners that coincide are one vertex afterwards (STL stores each three to six times), and a file
-    of several parts becomes one mesh. Holes are left as they are and warned of: the inside of an
-    open mesh is not defined. Raises InvalidInput when the file is not there, cannot be read or
-    holds no triangle; MissingDependency without trimesh.
+    of several parts becomes one mesh. What else is done to a faulty mesh, each warned of:
+
+    - open: left as it is, a sheet. As a static body it holds others on either side; it has no mass;
+    - parts inside out, faces wound against their neighbours: turned, where the mesh is closed;
+    - duplicate faces and faces that use a corner twice: left out;
+    - edges of four and more faces, parts within parts, surfaces that cross: left as they are.
+
+    Raises InvalidInput when the file is not there, cannot be read or holds no triangle;
+    MissingDependency without trimesh.
     """
     path = Path(path)
     if not (scale > 0 and math.isfinite(scale)):
@@ -34,7 +40,10 @@ def load(path: str | os.PathLike[str], scale: float = 1.0) -> Mesh:
     mesh = _read(path)
     vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float64) * scale
     faces = np.ascontiguousarray(mesh.faces, dtype=np.int32)
-    for remark in _remarks(path.name, vertices, faces, bool(mesh.is_watertight)):
+    mended, mended_faces, found = mend_mesh(vertices, faces)
+    if found.findings and found.closed:
+        vertices, faces = mended, mended_faces
+    for remark in _remarks(path.name, vertices, faces, found):
         warnings.warn(remark, stacklevel=2)
     return Mesh(vertices, faces)
 
@@ -54,12 +63,14 @@ def _read(path: Path) -> Any:
     return mesh
 
 
-def _remarks(name: str, vertices: np.ndarray, faces: np.ndarray, closed: bool) -> list[str]:
+def _remarks(name: str, vertices: np.ndarray, faces: np.ndarray, found: MeshDiagnosis) -> list[str]:
     used = vertices[np.unique(faces)]
     width = float(np.ptp(used, axis=0).max())
     remarks = []
     if width > IMPLAUSIBLE_M:
         remarks.append(f"{name} is {width:.4g} m wide; is the mesh in millimetres? try scale=0.001")
-    if not closed:
+    if not found.closed:
         remarks.append(f"{name} is not closed: its inside, and so its mass, is not well defined")
+    told = ("the mesh is open", "the mesh has")  # above; and a cavity is no fault
+    remarks += [f"{name}: {each}" for each in found.findings if not each.startswith(told)]
     return remarks

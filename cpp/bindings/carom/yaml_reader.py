@@ -146,7 +146,7 @@ def _is_array(value: Any) -> bool:
 
 
 _KINDS = (
-    (("ArrayLike", "ndarray"), _is_array, "must be a list of numbers"),
+    (("ArrayLike", "ndarray", "NDArray"), _is_array, "must be a list of numbers"),
     (("float", "SupportsFloat"), _is_number, "must be a number"),
     (("bool",), lambda value: isinstance(value, bool), "must be true or false"),
     (("str",), lambda value: isinstance(value, str), "must be text"),

@@ -86,9 +86,40 @@ def _terrain(shape: Any) -> Triangles:
     return vertices, np.stack(quads, axis=1).reshape(-1, 3)
 
 
+def _ball(radius: float, centre: np.ndarray) -> Triangles:
+    angle = np.linspace(-np.pi / 2, np.pi / 2, 2 * ALONG + 1)[1:-1]
+    vertices, faces = revolved(np.cos(angle), np.sin(angle))
+    vertices[-2:, 2] = [-1, 1]
+    return radius * vertices + centre, faces
+
+
+def _compound(shape: Any) -> Triangles | None:
+    """Of the parts that have one, at their places."""
+    vertices, faces, count = [], [], 0
+    for part in shape.parts:
+        for found in _pieces(part.shape):
+            u, w = part.orientation[:3], part.orientation[3]
+            across = 2 * np.cross(u, found[0])
+            vertices.append(found[0] + w * across + np.cross(u, across) + part.position)
+            faces.append(found[1] + count)
+            count += len(found[0])
+    return (np.vstack(vertices), np.vstack(faces)) if vertices else None
+
+
+def _pieces(shape: Any) -> list[Triangles]:
+    kind = type(shape).__name__
+    if kind == "Sphere":
+        return [_ball(shape.radius, np.zeros(3))]
+    if kind == "Particles":
+        return [_ball(shape.radius, centre) for centre in shape.positions]
+    found = outline(shape)
+    return [] if found is None else [found]
+
+
 _OUTLINES: dict[str, Callable[[Any], Triangles]] = {
     "Box": lambda shape: (_CORNERS * shape.extents, _BOX_FACES),
     "Capsule": _capsule,
+    "Compound": _compound,
     "Cone": _cone,
     "Cylinder": _cylinder,
     "Ellipsoid": _ellipsoid,
