@@ -89,6 +89,20 @@ void bind_made_shapes(py::module_& m) {
             return Sdf{std::make_shared<const SdfGrid>(SdfGrid::from_mesh(*mesh.surface, spacing))};
           }),
           "mesh"_a, "spacing"_a, "mesh: closed; spacing: cell size, m, > 0.")
+      .def_static(
+          "from_function",
+          [](const py::function& distance, const ArrayLike& lower, const ArrayLike& upper,
+             double spacing) {
+            const auto ask = [&](const Eigen::Vector3d& p) {
+              return distance(p).template cast<double>();
+            };
+            return Sdf{std::make_shared<const SdfGrid>(SdfGrid::from_function(
+                ask, {python::vector3(lower, "Sdf.lower"), python::vector3(upper, "Sdf.upper")},
+                spacing))};
+          },
+          "distance"_a, "lower"_a, "upper"_a, "spacing"_a,
+          "distance: takes a point, (3,) m, gives its signed distance, m, negative inside; lower,\n"
+          "upper: (3,) m, a box that holds the body; spacing: cell size, m, > 0.")
       .def_property_readonly(
           "error", [](const Sdf& s) { return s.grid->error; },
           "m, largest error met at the centres of cells near the surface")

@@ -13,6 +13,7 @@ STUDIES: dict[str, str] = {
     "inertia": "mass properties by sampling, grid and mesh sums against closed forms",
     "trees": "ray and overlap queries: trees and grid, cell and leaf sizes",
     "contact": "towers and a pyramid: small steps and direct solves, error against time",
+    "pairs": "every pair of shapes: depth against a reference, symmetry, continuity, time",
     "ccd": "continuous collision: wrong answers and time of every method",
 }
 """Name of each study's module and what it shows."""
