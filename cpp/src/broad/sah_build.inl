@@ -77,7 +77,8 @@ static constexpr int worth_two_sets = 256;  // items
 
 struct Builder {
   BuildTarget& to;
-  // Twice: neighbours in the list mostly fall into one bin, whose sum would have to wait for itself.
+  // Twice: neighbours in the list mostly fall into one bin, whose sum would have to wait for
+  // itself.
   Floats bin_bounds[2][3][max_bins];
   int bin_count[3][max_bins];
 

@@ -57,7 +57,7 @@ struct alignas(32) BuildItem {
 struct BuildTarget {
   BuildItem* items;
   int count;
-  int bins;  ///< at most max_bins
+  int bins;          ///< at most max_bins
   BuildItem* spill;  ///< room for spill_count items, see sah_build.inl
   int spill_count;
   WideNode* nodes;

@@ -58,8 +58,8 @@ struct Test {
     if (s.status == SeparationStatus::beyond || s.distance > margin || s.distance < -range) return;
     if (!in_cone_of_edge(surface, e, s.normal)) return;
     const double t = (s.point_a - p).dot(q - p) / (q - p).squaredNorm();
-    // At its ends a corner decides, unless the body lies along the edge: one of the closest pairs is
-    // then given, be it at an end.
+    // At its ends a corner decides, unless the body lies along the edge: one of the closest pairs
+    // is then given, be it at an end.
     const bool inside = t > tolerance::normal_cone && t < 1 - tolerance::normal_cone;
     const bool along = std::abs(s.normal.dot((q - p).normalized())) <= tolerance::normal_cone;
     if (!inside && !along) return;

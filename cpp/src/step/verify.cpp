@@ -82,7 +82,7 @@ void verify_step(World& world) {
   }
   BoxTree tree;
   for (const BodyPair& pair : tree.update(boxes, world.states.moves))
-    verify_pair(world, pair.a, pair.b, boxes);
+    if (world.filter.meet(pair.a, pair.b)) verify_pair(world, pair.a, pair.b, boxes);
   w.trail.clear();
 }
 

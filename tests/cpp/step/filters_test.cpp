@@ -76,6 +76,22 @@ TEST(Filters, ANamedPairPassesThroughWhileBothMeetTheRest) {
   for (const Contact& c : simulation.contacts()) EXPECT_FALSE(c.a == 1 && c.b == 2);
 }
 
+TEST(Filters, HoldForFastBodiesToo) {
+  Scene scene;
+  scene.add({.name = "wall", .shape = Box{{0.02, 4, 4}}, .is_static = true});
+  const BodyId bullet = scene.add({.name = "bullet",
+                                   .shape = Sphere{0.05},
+                                   .pose = {.position = {-1, 0, 0}},
+                                   .velocity = {300, 0, 0}});
+  Simulation stopped(scene);
+  stopped.advance(0.1);
+  EXPECT_LT(stopped.states().position[1].x(), 0);  // the sweep finds the wall
+  scene.never_meet(bullet, *scene.find("wall"));
+  Simulation through(scene);
+  through.advance(0.1);
+  EXPECT_NEAR(through.states().position[1].x(), 29, 1e-9);  // 30 m in a straight line
+}
+
 TEST(Filters, FollowTheRowsWhenABodyIsRemoved) {
   Scene scene = ground();
   const BodyId first = scene.add(ball("first", 2.0));

@@ -313,9 +313,9 @@ inline constexpr double sweep_share = 1.0;
 /// past a wall asks 20, one that spins towards it at 100 rad/s some 300.
 inline constexpr int sweep_queries = 1024;
 
-/// Hits of one body in a step; then it waits for the next one instead of passing anything. Choice: a
-/// ball of a struck chain takes two, a ball in a corner three; a heap that falls fast meets at once
-/// everywhere, which the contact solver settles together and hits one by one do not.
+/// Hits of one body in a step; then it waits for the next one instead of passing anything. Choice:
+/// a ball of a struck chain takes two, a ball in a corner three; a heap that falls fast meets at
+/// once everywhere, which the contact solver settles together and hits one by one do not.
 inline constexpr int sweep_hits = 8;
 
 /// m/s: points that close more slowly than this are not hit. Over 0.1 s they move a thousandth of

@@ -34,6 +34,7 @@ bool mark_fast(World& world) {
 }
 
 void ask(World& world, int a, int b, double t) {
+  if (!world.filter.meet(a, b)) return;
   SweepWork& w = world.sweep;
   need_path(world, a), need_path(world, b);
   const Scene::Body &body_a = world.scene.bodies[a], &body_b = world.scene.bodies[b];
