@@ -99,7 +99,6 @@ struct World {
   std::vector<Contact> contacts, contacts_before;
   std::vector<std::size_t> warm;  ///< scratch of warm starts
   SweepWork sweep;
-  std::vector<std::size_t> warm;
   std::vector<Push> pushes;  ///< scratch of the repulsion
 };
 
