@@ -52,7 +52,8 @@ Scene corner(bool chain) {
              .mass = 0.1,
              .pose = {.position = {0.45, 0.013, 0.4}},
              .velocity = {0, 0, -0.2 / dt},
-             .friction = 0});
+             .friction = 0,
+             .ccd = Ccd::never});  // the sweep takes its normals from the plain gradient
   scene.effects.emplace_back(Repulsion{.interior_normals = chain});
   return scene;
 }
