@@ -31,11 +31,12 @@ struct SweepEvent {
 };
 
 struct SweepWork {
-  std::vector<double> thickness;   ///< m, by row: inner radius; refreshed with the plan
-  std::vector<double> swing;       ///< m, by row: what a turn moves, about the centre of mass
-  std::vector<double> radius;      ///< m, by row: that holds it, about the centre of mass
-  std::vector<std::uint8_t> fast;  ///< by row: swept in this step
-  Array3 position_before;          ///< where the step began
+  std::vector<double> thickness;     ///< m, by row: inner radius; refreshed with the plan
+  std::vector<double> swing;         ///< m, by row: what a turn moves, about the centre of mass
+  std::vector<double> radius;        ///< m, by row: that holds it, about the centre of mass
+  std::vector<std::uint8_t> fast;    ///< by row: swept in this step
+  std::vector<BodyPair> left, kept;  ///< near pairs whose contacts the sweep, or the solver, takes
+  Array3 position_before;            ///< where the step began
   Array4 orientation_before;
   std::vector<BodyPath> paths;      ///< by row, of this step
   std::vector<std::uint8_t> laid;   ///< by row: its path is known
@@ -53,6 +54,18 @@ struct SweepWork {
   std::vector<Contact> contacts;
   std::vector<contact::Patch> patches;
 };
+
+/// How a body moves in a step or the rest of it.
+struct Motion {
+  Eigen::Vector3d centre;  ///< m
+  Eigen::Vector3d way;     ///< m
+  Eigen::Vector3d turn;    ///< rad
+};
+
+/// Whether two bodies move against each other by more than the thinner one's thickness allows. What
+/// they share does not count: a heap that falls as one is no case for the sweep.
+[[nodiscard]] bool is_fast(const World& world, int a, int b, const Motion& of_a,
+                           const Motion& of_b);
 
 /// No path is known yet.
 void begin_paths(World& world);

@@ -162,6 +162,13 @@ void wait_at(World& world, int i, double t) {
   path.velocity.setZero(), path.acceleration.setZero();
   path.arcs.assign(1, {t, q, Vector3d::Zero()});
   w.waits[i] = 1;
+  if (world.scene.bodies[i].restitution < 1) {
+    BodyStates& s = world.states;
+    world.dissipated += s.kinetic_energy(i);
+    s.velocity.set(i, tolerance::sweep_wait_keeps * s.velocity[i]);
+    s.angular_momentum.set(i, tolerance::sweep_wait_keeps * s.angular_momentum[i]);
+    world.dissipated -= s.kinetic_energy(i);
+  }
   world.report.sweep.waited += 1;
   world.report.sweep.time_lost += world.dt - t;
 }

@@ -309,6 +309,14 @@ inline constexpr double sweep_touch = 2e-5;
 /// is not past a sheet that its surface had not reached: the next step pushes it the right way.
 inline constexpr double sweep_share = 1.0;
 
+/// rad: up to this turn in a step two bodies that turn together count as at rest against each
+/// other: the second order left out, turn^2 / 2 of their distance, is 5 % of it.
+inline constexpr double small_turn = 0.3;
+
+/// Share of its speed, and of its spin, that a body keeps when it has to wait, unless it is fully
+/// elastic. Choice: what jams loses its speed in some steps, as it would by hits without number.
+inline constexpr double sweep_wait_keeps = 0.5;
+
 /// Distances one pair of convex parts may ask for before it counts as given up. A rod that turns
 /// past a wall asks 20, one that spins towards it at 100 rad/s some 300.
 inline constexpr int sweep_queries = 1024;

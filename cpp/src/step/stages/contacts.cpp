@@ -76,7 +76,14 @@ void warm_start(World& world) {
 /// or bounces for longer than a step.
 bool left_to_sweep(World& world, const BodyPair& pair, double restitution) {
   SweepWork& w = world.sweep;
-  if (w.fast[pair.a] || w.fast[pair.b]) return true;
+  if (w.fast[pair.a] || w.fast[pair.b]) {
+    const BodyStates& states = world.states;
+    const auto motion = [&](int i) {
+      return Motion{states.position[i], world.dt * states.velocity[i],
+                    world.dt * states.angular_velocity(i)};
+    };
+    return is_fast(world, pair.a, pair.b, motion(pair.a), motion(pair.b));
+  }
   if (!(restitution > 0) || !world.plan.runs(StageKind::sweep)) return false;
   const BodyStates& s = world.states;
   bool bounces = false;
@@ -113,6 +120,7 @@ void run_contacts(World& world) {
   if (wake_touched(world)) run_pairs(world);
   std::swap(world.contacts, world.contacts_before);
   world.contacts.clear();
+  world.sweep.left.clear(), world.sweep.kept.clear();
   world.manifold_cache.begin_step();
   const auto placed = [&](int i) {
     const Eigen::Quaterniond q = world.states.orientation[i] * world.states.axes_b[i].conjugate();
@@ -129,6 +137,7 @@ void run_contacts(World& world) {
     const double friction = std::sqrt(a.friction * b.friction);
     const double restitution = std::max(a.restitution, b.restitution);
     const bool swept = left_to_sweep(world, pair, restitution);
+    (swept ? world.sweep.left : world.sweep.kept).push_back(pair);
     for (const Manifold& m : world.manifolds)
       for (int k = 0; k < m.count; ++k) {
         const ContactPoint& p = m.points[k];

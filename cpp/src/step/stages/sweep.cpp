@@ -33,10 +33,26 @@ bool mark_fast(World& world) {
   return any;
 }
 
+Motion motion_of(const World& world, int i, double t) {
+  const BodyPath& path = world.sweep.paths[i];
+  const Eigen::Vector3d from = path.centre_at(t);
+  return {from, path.centre_at(world.dt) - from, (world.dt - t) * path.arc_at(t).rate};
+}
+
+/// Pairs whose contacts the solver has, and those that were far apart, need no look while they move
+/// little against each other; a body that was hit may have come near others since.
+bool goes_without(const World& world, int a, int b, double t) {
+  const SweepWork& w = world.sweep;
+  if (is_fast(world, a, b, motion_of(world, a, t), motion_of(world, b, t))) return false;
+  const BodyPair pair{a, b};
+  if (std::ranges::binary_search(w.kept, pair)) return true;
+  return w.version[a] == 0 && w.version[b] == 0 && !std::ranges::binary_search(w.left, pair);
+}
+
 void ask(World& world, int a, int b, double t) {
-  if (!world.filter.meet(a, b)) return;
   SweepWork& w = world.sweep;
   need_path(world, a), need_path(world, b);
+  if (goes_without(world, a, b, t)) return;
   const Scene::Body &body_a = world.scene.bodies[a], &body_b = world.scene.bodies[b];
   SweepReport& report = world.report.sweep;
   double thin = std::numeric_limits<double>::infinity();
@@ -92,6 +108,24 @@ void handle(World& world, const SweepEvent& event) {
 }
 
 }  // namespace
+
+bool is_fast(const World& world, int a, int b, const Motion& of_a, const Motion& of_b) {
+  const SweepWork& w = world.sweep;
+  double thin = std::numeric_limits<double>::infinity();
+  for (const int row : {a, b}) {
+    if (!world.states.moves[row]) continue;
+    if (world.scene.bodies[row].ccd == Ccd::always) return true;
+    thin = std::min(thin, w.thickness[row]);
+  }
+  const double swing_a = of_a.turn.norm() * w.swing[a], swing_b = of_b.turn.norm() * w.swing[b];
+  double far = (of_b.way - of_a.way).norm() + swing_a + swing_b;
+  // As seen from a body that turns little, what turns with it stands still.
+  const double common = (of_b.way - of_a.way - of_a.turn.cross(of_b.centre - of_a.centre)).norm() +
+                        (of_b.turn - of_a.turn).norm() * w.swing[b];
+  if (world.states.moves[a] && world.states.moves[b] && of_a.turn.norm() < tolerance::small_turn)
+    far = std::min(far, common);
+  return far > tolerance::sweep_share * thin;
+}
 
 void run_sweep(World& world) {
   SweepWork& w = world.sweep;
