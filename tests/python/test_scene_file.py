@@ -51,6 +51,9 @@ def test_every_argument_can_be_written():
         "orientation": "[0, 0, 1, 0]",
         "velocity": "[4, 5, 6]",
         "angular_velocity": "[7, 8, 9]",
+        "ccd": "always",
+        "groups": "3",
+        "meets": "5",
         "friction": "0.25",
         "restitution": "0.75",
         "rolling_resistance": "0.01",
@@ -69,6 +72,7 @@ def test_every_argument_can_be_written():
     np.testing.assert_array_equal(body.angular_velocity, [7, 8, 9])
     assert (body.friction, body.restitution) == (0.25, 0.75)
     assert (body.rolling_resistance, body.spinning_resistance) == (0.01, 0.002)
+    assert (body.ccd, body.groups, body.meets) == ("always", 3, 5)
 
 
 def test_mass_properties_are_written_as_their_constructor_takes_them():

@@ -151,6 +151,23 @@ TEST(Sweep, AChainOfAHundredBallsPassesOnTheSpeedOfTheFirst) {
   for (int i = 1; i < 100; ++i) EXPECT_GT(x_of(s, i), x_of(s, i - 1) + 0.1);
 }
 
+// A box that meets the wall with a corner keeps most of its speed and turns it into spin: the wall
+// must be asked about again, and again.
+TEST(Sweep, AHitThatDoesNotStopIsFollowedByTheNext) {
+  Scene scene;
+  scene.add({.name = "plate", .shape = Box{{1e-4, 20, 20}}, .is_static = true});
+  scene.add({.name = "box",
+             .shape = Box{{0.02, 0.02, 0.02}},
+             .pose = {.position = {-700, 0.3, 0.4}},
+             .velocity = {12000, 0, 0},
+             .angular_velocity = {60, -30, 80}});
+  Simulation s(std::move(scene), {.dt = 0.1});
+  for (int k = 0; k < 20; ++k) {
+    s.step();
+    ASSERT_LT(x_of(s, 1), 0) << k;
+  }
+}
+
 TEST(Sweep, TwoBulletsMeetHeadOn) {
   Scene scene;
   for (const double side : {-1.0, 1.0})

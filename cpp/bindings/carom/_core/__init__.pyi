@@ -45,6 +45,8 @@ __all__: list[str] = [
     "Plane",
     "PlannedStage",
     "Report",
+    "Repulsion",
+    "RepulsionReport",
     "RotationReport",
     "SamplingError",
     "Scene",
@@ -52,11 +54,14 @@ __all__: list[str] = [
     "Simulation",
     "Sphere",
     "StageTime",
+    "SweepReport",
     "TorsionSpring",
     "UniformGravity",
     "broad",
     "build_info",
     "ccd",
+    "closest_points",
+    "collide",
     "compile",
     "diagnose_mesh",
     "effects_table",
@@ -259,6 +264,17 @@ class Sdf:
     """
     Body given by the signed distance to its surface on a grid.
     """
+    @staticmethod
+    def from_function(
+        distance: collections.abc.Callable,
+        lower: numpy.typing.ArrayLike,
+        upper: numpy.typing.ArrayLike,
+        spacing: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> Sdf:
+        """
+        distance: takes a point, (3,) m, gives its signed distance, m, negative inside; lower,
+        upper: (3,) m, a box that holds the body; spacing: cell size, m, > 0.
+        """
     def __init__(self, mesh: Mesh, spacing: typing.SupportsFloat | typing.SupportsIndex) -> None:
         """
         mesh: closed; spacing: cell size, m, > 0.
@@ -269,9 +285,19 @@ class Sdf:
         m, largest error met at the centres of cells near the surface
         """
     @property
+    def faces(self) -> numpy.ndarray:
+        """
+        (F, 3) vertex indices
+        """
+    @property
     def spacing(self) -> float:
         """
         m, cell size
+        """
+    @property
+    def vertices(self) -> numpy.ndarray:
+        """
+        (V, 3) m, of the surface where the distance is zero
         """
 
 class HeightField:
@@ -329,6 +355,11 @@ class Compound:
         parts: a list of Part.
         """
     @property
+    def parts(self) -> list[Part]:
+        """
+        copies, in order
+        """
+    @property
     def size(self) -> int:
         """
         number of parts
@@ -359,6 +390,34 @@ class Part:
         """
         position: (3,) m; orientation: (4,) x y z w; in the body frame.
         """
+    @property
+    def orientation(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
+        """
+        (4,) x y z w
+        """
+    @property
+    def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        (3,) m
+        """
+    @property
+    def shape(
+        self,
+    ) -> (
+        Sphere
+        | Box
+        | Plane
+        | Mesh
+        | Capsule
+        | Cylinder
+        | Cone
+        | Ellipsoid
+        | ConvexHull
+        | Sdf
+        | HeightField
+        | Particles
+        | Compound
+    ): ...
 
 class SamplingError:
     """
@@ -935,6 +994,33 @@ class TorsionSpring:
         N m/rad
         """
 
+class Repulsion:
+    """
+    The lecture's way out of overlap: speed depth / dt along the normal. It
+    puts energy in: see Energy.repulsion and Report.repulsion.
+    """
+    def __init__(
+        self,
+        bounded: bool = True,
+        cap: typing.SupportsFloat | typing.SupportsIndex = 3.0,
+        interior_normals: bool = True,
+    ) -> None:
+        """
+        bounded: give a point only what it lacks of that speed, and never more than leaves it at
+        cap, m/s, > 0; interior_normals: take the normals of particles inside distance grids from
+        the chain gradient, swept hit, velocity.
+        """
+    def __repr__(self) -> str: ...
+    @property
+    def bounded(self) -> bool: ...
+    @property
+    def cap(self) -> float:
+        """
+        m/s
+        """
+    @property
+    def interior_normals(self) -> bool: ...
+
 class EffectInfo:
     """
     What there is to know of a kind of effect.
@@ -977,13 +1063,28 @@ class Body:
         (3,) rad/s, world axes, at the start
         """
     @property
+    def ccd(self) -> str:
+        """
+        'auto', 'always' or 'never'
+        """
+    @property
     def friction(self) -> float: ...
+    @property
+    def groups(self) -> int:
+        """
+        bits of the groups it belongs to
+        """
     @property
     def id(self) -> int: ...
     @property
     def mass_properties(self) -> MassProperties:
         """
         in the body frame; zero mass for a static body
+        """
+    @property
+    def meets(self) -> int:
+        """
+        bits of the groups it meets
         """
     @property
     def name(self) -> str: ...
@@ -1042,33 +1143,33 @@ class EffectList:
     def __delitem__(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __getitem__(
         self, arg0: typing.SupportsInt | typing.SupportsIndex
-    ) -> UniformGravity | AppliedWrench | LinearDrag | TorsionSpring: ...
+    ) -> UniformGravity | AppliedWrench | LinearDrag | TorsionSpring | Repulsion: ...
     def __iter__(self) -> collections.abc.Iterator: ...
     def __len__(self) -> int: ...
     def __repr__(self) -> str: ...
     def __setitem__(
         self,
         arg0: typing.SupportsInt | typing.SupportsIndex,
-        arg1: UniformGravity | AppliedWrench | LinearDrag | TorsionSpring,
+        arg1: UniformGravity | AppliedWrench | LinearDrag | TorsionSpring | Repulsion,
     ) -> None: ...
     def append(
-        self, effect: UniformGravity | AppliedWrench | LinearDrag | TorsionSpring
+        self, effect: UniformGravity | AppliedWrench | LinearDrag | TorsionSpring | Repulsion
     ) -> None: ...
     def clear(self) -> None: ...
     def extend(
         self,
         effects: collections.abc.Sequence[
-            UniformGravity | AppliedWrench | LinearDrag | TorsionSpring
+            UniformGravity | AppliedWrench | LinearDrag | TorsionSpring | Repulsion
         ],
     ) -> None: ...
     def insert(
         self,
         index: typing.SupportsInt | typing.SupportsIndex,
-        effect: UniformGravity | AppliedWrench | LinearDrag | TorsionSpring,
+        effect: UniformGravity | AppliedWrench | LinearDrag | TorsionSpring | Repulsion,
     ) -> None: ...
     def pop(
         self, index: typing.SupportsInt | typing.SupportsIndex = -1
-    ) -> UniformGravity | AppliedWrench | LinearDrag | TorsionSpring: ...
+    ) -> UniformGravity | AppliedWrench | LinearDrag | TorsionSpring | Repulsion: ...
 
 class Scene:
     """
@@ -1113,11 +1214,14 @@ class Scene:
         restitution: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         rolling_resistance: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         spinning_resistance: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        ccd: str = "auto",
+        groups: typing.SupportsInt | typing.SupportsIndex = 1,
+        meets: typing.SupportsInt | typing.SupportsIndex = 4294967295,
     ) -> int:
         """
         Adds a body and returns its id; ids are never used again.
 
-        shape: Sphere, Box, Plane or Mesh; name: unique, letters, digits and _, a letter first
+        shape: any shape of this module; name: unique, letters, digits and _, a letter first
         ('body_<id>' where none is given); static: never moves;
         mass: kg, spread evenly, or density: kg/m^3 (1000 where nothing is given), or
         mass_properties in the body frame;
@@ -1125,13 +1229,21 @@ class Scene:
         velocity: (3,) m/s of that frame's origin; angular_velocity: (3,) rad/s; world axes;
         friction: >= 0, a pair uses sqrt(mu1 mu2); restitution: 0 to 1, a pair uses the larger;
         rolling_resistance, spinning_resistance: m, >= 0: torque bounds over the normal force, a pair
-        uses the larger.
+        uses the larger;
+        ccd: 'auto' follows the body along its path in steps that move it farther than its own
+        thickness allows, 'always' in every step, 'never': it may then pass through things;
+        groups, meets: bits of the groups the body belongs to and of those it meets: two bodies meet
+        where each belongs to a group the other meets; meets 0: nothing touches it.
 
         Raises InvalidInput (a ValueError) naming the field; nothing has changed then.
         """
     def find(self, name: str) -> int | None:
         """
         Id of the body of that name, or None.
+        """
+    def never_meet(self, a: int | str, b: int | str) -> None:
+        """
+        Lets two bodies, by id or name, pass through each other, whatever their groups.
         """
     def remove(self, body: int | str) -> None:
         """
@@ -1150,8 +1262,15 @@ class Scene:
     @effects.setter
     def effects(
         self,
-        arg1: collections.abc.Sequence[UniformGravity | AppliedWrench | LinearDrag | TorsionSpring],
+        arg1: collections.abc.Sequence[
+            UniformGravity | AppliedWrench | LinearDrag | TorsionSpring | Repulsion
+        ],
     ) -> None: ...
+    @property
+    def never(self) -> list[tuple[int, int]]:
+        """
+        Pairs of ids that never meet.
+        """
 
 class PlannedStage:
     """
@@ -1195,7 +1314,7 @@ class Energy:
     @property
     def balance(self) -> float:
         """
-        J, kinetic + potential + dissipated - work
+        J, kinetic + potential + dissipated - work - repulsion
         """
     @property
     def dissipated(self) -> float:
@@ -1211,6 +1330,11 @@ class Energy:
     def potential(self) -> float:
         """
         J
+        """
+    @property
+    def repulsion(self) -> float:
+        """
+        J, put in by the lecture's repulsion since the start
         """
     @property
     def work(self) -> float:
@@ -1264,6 +1388,53 @@ class ContactReport:
         m/s, worst the solver left
         """
 
+class RepulsionReport:
+    """
+    What the lecture's repulsion did, added up; the first four: where the
+    normals of centres inside distance grids came from.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def capped(self) -> int:
+        """
+        steps that stopped at the cap of sweeps
+        """
+    @property
+    def fastest(self) -> float:
+        """
+        m/s, largest speed given to a point
+        """
+    @property
+    def gradient(self) -> int:
+        """
+        of the distance
+        """
+    @property
+    def kept(self) -> int:
+        """
+        of the step before: inside all along
+        """
+    @property
+    def pushed(self) -> int:
+        """
+        contact points
+        """
+    @property
+    def stagnated(self) -> int:
+        """
+        steps that rounding stopped
+        """
+    @property
+    def swept_hit(self) -> int:
+        """
+        where the path met the surface
+        """
+    @property
+    def velocity(self) -> int:
+        """
+        opposite of the motion
+        """
+
 class RotationReport:
     """
     What turning the bodies took, added up.
@@ -1288,6 +1459,64 @@ class RotationReport:
     def not_converged(self) -> int:
         """
         implicit or adaptive steps that stopped at their cap
+        """
+
+class SweepReport:
+    """
+    The certificate: what was followed along its path, and what could not
+    be followed to the end of a step and waited there. Nothing has passed through
+    anything else.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def crossings(self) -> int:
+        """
+        of these, found to cross
+        """
+    @property
+    def gave_up(self) -> int:
+        """
+        pairs not certified to the end of a step: query cap met
+        """
+    @property
+    def impacts(self) -> int:
+        """
+        hits resolved at their time
+        """
+    @property
+    def queries(self) -> int:
+        """
+        distances that took
+        """
+    @property
+    def smallest_gap(self) -> float:
+        """
+        m, least separation of swept pairs; negative: overlap, inf where none was
+        """
+    @property
+    def sweeps(self) -> int:
+        """
+        pairs of paths asked about
+        """
+    @property
+    def swept(self) -> int:
+        """
+        bodies followed in the last step
+        """
+    @property
+    def time_lost(self) -> float:
+        """
+        s, that those bodies did not move
+        """
+    @property
+    def verified(self) -> int:
+        """
+        pairs of ways looked at again, with Simulation(verify=True)
+        """
+    @property
+    def waited(self) -> int:
+        """
+        bodies stopped for the rest of a step: too many hits, or given up
         """
 
 class StageTime:
@@ -1323,8 +1552,10 @@ class Report:
     @property
     def ok(self) -> bool:
         """
-        no body frozen and no solve given up
+        no body frozen or made to wait, no solve given up
         """
+    @property
+    def repulsion(self) -> RepulsionReport: ...
     @property
     def rotation(self) -> RotationReport: ...
     @property
@@ -1339,6 +1570,8 @@ class Report:
         """
     @property
     def steps(self) -> int: ...
+    @property
+    def sweep(self) -> SweepReport: ...
     @property
     def time(self) -> float:
         """
@@ -1363,12 +1596,15 @@ class Simulation:
         contact_solver: str = "automatic",
         substeps: typing.SupportsInt | typing.SupportsIndex = 0,
         sleep_after: typing.SupportsFloat | typing.SupportsIndex = ...,
+        verify: bool = False,
     ) -> None:
         """
         scene: copied, so later changes to it do not reach the simulation; dt: s, > 0, the
         largest step taken; integrator: of rotations, one of METHODS; contact_solver:
         'automatic', 'small_steps' or 'direct'; substeps: of the small steps, 0 for as many as
-        the loads ask for; sleep_after: s at rest until an island costs nothing, inf for never.
+        the loads ask for; sleep_after: s at rest until an island costs nothing, inf for
+        never; verify: look at the ways of every step again with exact predicates, see
+        report.sweep.crossings; slow.
         """
     def __len__(self) -> int: ...
     def __repr__(self) -> str: ...
@@ -1401,11 +1637,14 @@ class Simulation:
         restitution: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         rolling_resistance: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         spinning_resistance: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        ccd: str = "auto",
+        groups: typing.SupportsInt | typing.SupportsIndex = 1,
+        meets: typing.SupportsInt | typing.SupportsIndex = 4294967295,
     ) -> int:
         """
         Adds a body and returns its id; ids are never used again.
 
-        shape: Sphere, Box, Plane or Mesh; name: unique, letters, digits and _, a letter first
+        shape: any shape of this module; name: unique, letters, digits and _, a letter first
         ('body_<id>' where none is given); static: never moves;
         mass: kg, spread evenly, or density: kg/m^3 (1000 where nothing is given), or
         mass_properties in the body frame;
@@ -1413,7 +1652,11 @@ class Simulation:
         velocity: (3,) m/s of that frame's origin; angular_velocity: (3,) rad/s; world axes;
         friction: >= 0, a pair uses sqrt(mu1 mu2); restitution: 0 to 1, a pair uses the larger;
         rolling_resistance, spinning_resistance: m, >= 0: torque bounds over the normal force, a pair
-        uses the larger.
+        uses the larger;
+        ccd: 'auto' follows the body along its path in steps that move it farther than its own
+        thickness allows, 'always' in every step, 'never': it may then pass through things;
+        groups, meets: bits of the groups the body belongs to and of those it meets: two bodies meet
+        where each belongs to a group the other meets; meets 0: nothing touches it.
 
         Raises InvalidInput (a ValueError) naming the field; nothing has changed then.
         """
@@ -1462,20 +1705,81 @@ class Simulation:
         self,
         points: numpy.typing.ArrayLike,
         reach: typing.SupportsFloat | typing.SupportsIndex = ...,
+        *,
+        groups: typing.SupportsInt | typing.SupportsIndex = 4294967295,
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.int32],
         numpy.typing.NDArray[numpy.float64],
     ]:
         """
-        Nearest body to each point (N, 3): distance (N,) m, negative inside; row (N,), -1 for none;
-        point (N, 3) on the body.
+        Nearest body to each point (N, 3), no farther than reach m: distance (N,) m, negative
+        inside, inf for none; row (N,), -1 for none; point (N, 3) on the body.
+        """
+    def closest_to_shape(
+        self,
+        shape: Sphere
+        | Box
+        | Plane
+        | Mesh
+        | Capsule
+        | Cylinder
+        | Cone
+        | Ellipsoid
+        | ConvexHull
+        | Sdf
+        | HeightField
+        | Particles
+        | Compound,
+        positions: numpy.typing.ArrayLike,
+        orientations: numpy.typing.ArrayLike = (0, 0, 0, 1),
+        reach: typing.SupportsFloat | typing.SupportsIndex = ...,
+        *,
+        groups: typing.SupportsInt | typing.SupportsIndex = 4294967295,
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.int32],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+    ]:
+        """
+        Nearest body to a shape where it is placed, no farther than reach m. positions: (N, 3) m;
+        orientations: (N, 4) x y z w, or (4,) for all. Returns distance (N,) m, negative where they
+        overlap, inf for none; row (N,), -1 for none; the nearest points on body and shape, (N, 3).
         """
     def contacts(self) -> numpy.ndarray:
         """
         Contact points of the last step, a structured array: a, b (rows), position (m, world),
         normal (unit, from a to b), separation (m, < 0: overlap, at the start of the step),
         impulse (N s, on b), friction and restitution of the pair.
+        """
+    def contacts_of(
+        self,
+        shape: Sphere
+        | Box
+        | Plane
+        | Mesh
+        | Capsule
+        | Cylinder
+        | Cone
+        | Ellipsoid
+        | ConvexHull
+        | Sdf
+        | HeightField
+        | Particles
+        | Compound,
+        positions: numpy.typing.ArrayLike,
+        orientations: numpy.typing.ArrayLike = (0, 0, 0, 1),
+        margin: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        *,
+        groups: typing.SupportsInt | typing.SupportsIndex = 4294967295,
+    ) -> numpy.ndarray:
+        """
+        Contacts a shape would have where it is placed: positions (N, 3) m, orientations (N, 4)
+        x y z w, or (4,) for all; margin: m, points farther apart are left out. A structured array,
+        one row a point: query (which placing), row (of the body), manifold (number within the
+        placing), position (m, world), normal (unit, from the body to the shape), separation (m,
+        negative: overlap), feature (names the meeting features).
         """
     def energy(self) -> Energy:
         """
@@ -1523,11 +1827,15 @@ class Simulation:
         | HeightField
         | Particles
         | Compound,
-        position: numpy.typing.ArrayLike,
-        orientation: numpy.typing.ArrayLike = (0.0, 0.0, 0.0, 1.0),
-    ) -> list[int]:
+        positions: numpy.typing.ArrayLike,
+        orientations: numpy.typing.ArrayLike = (0, 0, 0, 1),
+        *,
+        groups: typing.SupportsInt | typing.SupportsIndex = 4294967295,
+    ) -> tuple[numpy.typing.NDArray[numpy.int64], numpy.typing.NDArray[numpy.int32]]:
         """
-        Rows of the bodies that a shape placed there touches.
+        Bodies that a shape touches where it is placed. positions: (N, 3) m; orientations: (N, 4)
+        x y z w, or (4,) for all. Returns offsets (N + 1,) and rows: those of placing i are
+        rows[offsets[i]:offsets[i + 1]], ascending.
         """
     def plan(self, off: bool = False) -> list[carom.plan.Stage]:
         """
@@ -1543,13 +1851,12 @@ class Simulation:
         origins: numpy.typing.ArrayLike,
         directions: numpy.typing.ArrayLike,
         max_distance: typing.SupportsFloat | typing.SupportsIndex = ...,
-    ) -> tuple[
-        numpy.typing.NDArray[numpy.float64],
-        numpy.typing.NDArray[numpy.int32],
-        numpy.typing.NDArray[numpy.float64],
-    ]:
+        *,
+        groups: typing.SupportsInt | typing.SupportsIndex = 4294967295,
+    ) -> tuple:
         """
-        First body along each ray. origins, directions: (N, 3), directions of any length > 0.
+        First body along each ray. origins, directions: (N, 3) m, directions of any length > 0;
+        max_distance: m; groups: bits, only bodies of these groups are asked.
         Returns distance (N,) m (inf where none), row (N,) of the body (-1), normal (N, 3).
         """
     def remove(self, body: int | str) -> None:
@@ -1567,6 +1874,17 @@ class Simulation:
     def save(self) -> bytes:
         """
         All that steps depend on, as bytes for this same build.
+        """
+    def segments(
+        self,
+        starts: numpy.typing.ArrayLike,
+        ends: numpy.typing.ArrayLike,
+        *,
+        groups: typing.SupportsInt | typing.SupportsIndex = 4294967295,
+    ) -> tuple:
+        """
+        First body along each segment. starts, ends: (N, 3) m. Returns fraction (N,) of the way, 0
+        to 1 (inf where none), row (N,) of the body (-1), normal (N, 3).
         """
     def set_state(
         self,
@@ -1596,13 +1914,17 @@ class Simulation:
         | HeightField
         | Particles
         | Compound,
-        position: numpy.typing.ArrayLike,
-        direction: numpy.typing.ArrayLike,
-        orientation: numpy.typing.ArrayLike = (0.0, 0.0, 0.0, 1.0),
+        positions: numpy.typing.ArrayLike,
+        directions: numpy.typing.ArrayLike,
+        orientations: numpy.typing.ArrayLike = (0, 0, 0, 1),
         max_distance: typing.SupportsFloat | typing.SupportsIndex = ...,
-    ) -> tuple[float, int, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]:
+        *,
+        groups: typing.SupportsInt | typing.SupportsIndex = 4294967295,
+    ) -> tuple:
         """
-        How far a shape goes without turning until it meets a body: distance, row, normal.
+        How far a shape goes without turning until it meets a body. positions, directions: (N, 3)
+        m; orientations: (N, 4) x y z w, or (4,) for all. Returns distance (N,) m, never beyond the
+        first contact (inf where none), row (N,) (-1), normal (N, 3) out of the body.
         """
     def state_hash(self) -> int:
         """
@@ -1823,6 +2145,90 @@ class HashGrid:
 def build_info() -> dict:
     """
     Version, Eigen, compiler and scalar of this build.
+    """
+
+def closest_points(
+    a: Sphere
+    | Box
+    | Plane
+    | Mesh
+    | Capsule
+    | Cylinder
+    | Cone
+    | Ellipsoid
+    | ConvexHull
+    | Sdf
+    | HeightField
+    | Particles
+    | Compound,
+    b: Sphere
+    | Box
+    | Plane
+    | Mesh
+    | Capsule
+    | Cylinder
+    | Cone
+    | Ellipsoid
+    | ConvexHull
+    | Sdf
+    | HeightField
+    | Particles
+    | Compound,
+    positions_a: numpy.typing.ArrayLike,
+    positions_b: numpy.typing.ArrayLike,
+    orientations_a: numpy.typing.ArrayLike = (0, 0, 0, 1),
+    orientations_b: numpy.typing.ArrayLike = (0, 0, 0, 1),
+    reach: typing.SupportsFloat | typing.SupportsIndex = ...,
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+]:
+    """
+    Nearest points of two shapes at N pairs of poses, as of `collide`: distance (N,) m, negative
+    where they overlap, inf beyond reach; points on a and on b (N, 3) m; normal (N, 3) from a to b.
+    """
+
+def collide(
+    a: Sphere
+    | Box
+    | Plane
+    | Mesh
+    | Capsule
+    | Cylinder
+    | Cone
+    | Ellipsoid
+    | ConvexHull
+    | Sdf
+    | HeightField
+    | Particles
+    | Compound,
+    b: Sphere
+    | Box
+    | Plane
+    | Mesh
+    | Capsule
+    | Cylinder
+    | Cone
+    | Ellipsoid
+    | ConvexHull
+    | Sdf
+    | HeightField
+    | Particles
+    | Compound,
+    positions_a: numpy.typing.ArrayLike,
+    positions_b: numpy.typing.ArrayLike,
+    orientations_a: numpy.typing.ArrayLike = (0, 0, 0, 1),
+    orientations_b: numpy.typing.ArrayLike = (0, 0, 0, 1),
+    margin: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+) -> numpy.ndarray:
+    """
+    All contacts of two shapes at N pairs of poses: positions (N, 3) m, orientations (N, 4)
+    x y z w, or (4,) for all; margin: m, points farther apart are left out. A structured array,
+    one row a point: query (which pair of poses), row (-1), manifold (number within the query),
+    position (m, world, midway between the surfaces), normal (unit, from a to b), separation (m
+    along it, negative: overlap), feature (names the meeting features).
     """
 
 def compile(scene: Scene) -> Plan:

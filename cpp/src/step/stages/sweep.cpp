@@ -50,6 +50,7 @@ bool goes_without(const World& world, int a, int b, double t) {
 }
 
 void ask(World& world, int a, int b, double t) {
+  if (!world.filter.meet(a, b)) return;
   SweepWork& w = world.sweep;
   need_path(world, a), need_path(world, b);
   if (goes_without(world, a, b, t)) return;
@@ -104,7 +105,7 @@ void handle(World& world, const SweepEvent& event) {
     w.fast[row] = 1;
   }
   ask_about(world, event.a, -1, t);
-  ask_about(world, event.b, event.a, t);
+  ask_about(world, event.b, world.states.moves[event.a] ? event.a : -1, t);
 }
 
 }  // namespace
