@@ -41,7 +41,7 @@ double x_of(const Simulation& s, int row) {
 }
 
 TEST(Sweep, ABulletTunnelsWithoutItAndNeverWithIt) {
-  for (const Shape& wall : {Shape(Box{{0.01, 4, 4}}), Shape(sheet())})
+  for (const Shape& wall : {Shape(Box{{0.01, 4, 4}}), Shape(sheet()), Shape(Plane{{-1, 0, 0}, 0})})
     for (const double speed : {100.0, 1e3, 1e4}) {
       Simulation control = shot(wall, speed, Ccd::never), cured = shot(wall, speed, Ccd::automatic);
       for (int k = 0; k < 4; ++k) control.step(), cured.step();

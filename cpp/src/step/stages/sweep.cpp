@@ -118,8 +118,10 @@ bool is_fast(const World& world, int a, int b, const Motion& of_a, const Motion&
     if (world.scene.bodies[row].ccd == Ccd::always) return true;
     thin = std::min(thin, w.thickness[row]);
   }
-  const double swing_a = of_a.turn.norm() * w.swing[a], swing_b = of_b.turn.norm() * w.swing[b];
-  double far = (of_b.way - of_a.way).norm() + swing_a + swing_b;
+  const auto swing = [&](int row, const Motion& of) {  // a plane reaches for ever and never turns
+    return world.states.moves[row] ? of.turn.norm() * w.swing[row] : 0.0;
+  };
+  double far = (of_b.way - of_a.way).norm() + swing(a, of_a) + swing(b, of_b);
   // As seen from a body that turns little, what turns with it stands still.
   const double common = (of_b.way - of_a.way - of_a.turn.cross(of_b.centre - of_a.centre)).norm() +
                         (of_b.turn - of_a.turn).norm() * w.swing[b];
