@@ -20,6 +20,7 @@ using Status = FirstContact::Status;
 
 constexpr int many_faces = 32;  // more of them in one stretch of the way: halve the stretch
 constexpr int most_halvings = 12;
+constexpr int grid_queries = 64;  // half of the gap each: 20 get from 1 m to 1 um; each is dear
 
 /// A shape without parts, where it sits in its body.
 struct Leaf {
@@ -169,7 +170,7 @@ struct Search {
       if (only_now || !(near.distance <= reach)) return;
       const double room = near.distance - target;
       const bool touches = room <= 0.5 * tolerance::sweep_clear;
-      if (touches || i == 4 * tolerance::sweep_queries) {
+      if (touches || i == grid_queries) {
         if (best.status != Status::clear && best.time <= t) return;
         best.status = touches ? Status::contact : Status::gave_up;
         best.time = t;
