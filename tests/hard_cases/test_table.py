@@ -6,12 +6,9 @@ import pytest
 from carom.stress import GROUPS, cases_of, run_case
 
 KNOWN = {
-    "mesh_against_a_sheet": "6400 m/s became 78 000 rad/s: it waits and sinks 0.3 mm a step",
     "fast_tumble_gets_substeps": "1.1e-2: sub-steps are longer than tolerance.hpp's bound supposes",
     "falling_beside_others": "3 mm: islands of small steps fall by sub-steps of order 1",
-    "slab_under_25_balls": "1.8e-8 m^2/s^2: Bullet published 5.7e-9; half a step late at the start",
     "elastic_cube_of_216": "13 % of the energy is booked as dissipated in the first hits, e = 1",
-    "ball_in_a_corner": "1e-5 m: the small-steps solver trembles by 3e-5 m/s; direct holds it",
     "house_of_two_cards": "parallel edges meet with the normal of a face, not of the pair",
     "mirror_symmetry": "0.4 m: islands are solved in the order of rows",
 }

@@ -131,12 +131,11 @@ def test_with_continuous_collision_off_they_tunnel():
 
 
 OPEN = (
-    "a body hit 33 times in a step waits, and each hit may use up 1e-5 m of its gap: kept at it "
-    "step after step, it gets through a sheet by 0.3 mm a step"
+    "the full set was not run; of its first 600 runs 293 (cup) and 524 (funnel) still cross, in "
+    "corners where a body jams after its last hit"
 )
 
 
-@pytest.mark.xfail(strict=False, reason=OPEN)
 def test_with_it_nothing_passes_through_anything():
     rows, bad = tunnel_truth.run_all(SLICE, SEED, "auto")
     assert bad == [], f"seed {SEED}"
