@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "carom/broad/box_tree.hpp"
+#include "carom/broad/pairs.hpp"
 #include "carom/narrow/body_path.hpp"
 #include "carom/narrow/contacts.hpp"
 #include "carom/narrow/first_contact.hpp"
@@ -44,10 +44,15 @@ struct SweepWork {
   Array3 torque;                    ///< N m, by row: rate of the angular momentum over the step
   std::vector<std::uint8_t> waits;  ///< by row: stays where it is until the step ends
   std::vector<int> version, hits;   ///< by row
+  std::vector<Aabb> near;           ///< by row, of fast ones: box of the pair stage without the way
+  std::vector<BodyPair> near_pairs;
+  int ahead = 0;                    ///< rows whose way stands in the tree of the pair stage
+  std::vector<int> strayed;         ///< rows whose path left the box it has in that tree
+  std::vector<std::uint8_t> boxed;  ///< by row: the box of its path is known
   std::vector<Aabb> boxes;          ///< of the paths
-  BoxTree tree;
-  std::vector<SweepEvent> events;  ///< a heap
-  std::vector<TrailPiece> trail;   ///< ways of the step, kept only to verify it
+  std::vector<int> met;             ///< scratch of queries
+  std::vector<SweepEvent> events;   ///< a heap
+  std::vector<TrailPiece> trail;    ///< ways of the step, kept only to verify it
   contact::BodyFrames frames;
   contact::Impacts impacts;
   std::vector<Manifold> manifolds;
@@ -78,6 +83,10 @@ void lay_path(World& world, int row, double t, const Eigen::Vector3d& accelerati
 void go_to(World& world, int row, double t);
 /// Stops a body where it is at time t, until the step ends; it keeps its velocity.
 void wait_at(World& world, int row, double t);
+/// Box of all that a body may touch on a parabola between two places of its centre of mass that
+/// ends at the velocity of the states.
+[[nodiscard]] Aabb path_box(const World& world, int row, const Eigen::Vector3d& from,
+                            const Eigen::Vector3d& to);
 /// Box of the rest of a path, or of the whole of one that is not known.
 [[nodiscard]] Aabb path_bounds(const World& world, int row);
 

@@ -86,7 +86,8 @@ void begin_paths(World& world) {
   SweepWork& w = world.sweep;
   const int n = world.states.size();
   w.paths.resize(n);
-  w.laid.assign(n, 0), w.waits.assign(n, 0), w.version.assign(n, 0), w.hits.assign(n, 0);
+  w.laid.assign(n, 0), w.waits.assign(n, 0), w.boxed.assign(n, 0), w.version.assign(n, 0),
+      w.hits.assign(n, 0);
   for (Array3* a : {&w.torque, &w.pull}) a->x.resize(n), a->y.resize(n), a->z.resize(n);
 }
 
@@ -173,17 +174,21 @@ void wait_at(World& world, int i, double t) {
   world.report.sweep.time_lost += world.dt - t;
 }
 
-Aabb path_bounds(const World& world, int i) {
-  const SweepWork& w = world.sweep;
-  if (!world.states.moves[i]) return world.boxes[i];
-  const double around = w.radius[i] + tolerance::sweep_clear;
-  if (w.laid[i]) return w.paths[i].centre_bounds(w.paths[i].start, world.dt).inflated(around);
+Aabb path_box(const World& world, int i, const Vector3d& from, const Vector3d& to) {
   // The parabola leaves its chord by a h^2 / 8, and a h / 2 is what the mean speed lacks.
-  const Vector3d from = w.position_before[i], to = world.states.position[i];
   const double bulge = 0.25 * (world.dt * world.states.velocity[i] - (to - from)).norm();
   Aabb box;
   box.extend(from), box.extend(to);
-  return box.inflated(around + bulge);
+  return box.inflated(world.sweep.radius[i] + tolerance::sweep_clear + bulge);
+}
+
+Aabb path_bounds(const World& world, int i) {
+  const SweepWork& w = world.sweep;
+  if (!world.states.moves[i]) return world.boxes[i];
+  if (!w.laid[i]) return path_box(world, i, w.position_before[i], world.states.position[i]);
+  return w.paths[i]
+      .centre_bounds(w.paths[i].start, world.dt)
+      .inflated(w.radius[i] + tolerance::sweep_clear);
 }
 
 }  // namespace carom

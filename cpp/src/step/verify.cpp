@@ -78,7 +78,7 @@ void verify_step(World& world) {
   for (const TrailPiece& p : w.trail) {
     const double radius = bounding_radius(world.scene.bodies[p.row].shape) + p.path.com_b.norm();
     const Aabb way = p.path.centre_bounds(p.from, p.to).inflated(radius);
-    boxes[p.row].extend(way.lower), boxes[p.row].extend(way.upper);
+    boxes[p.row].extend(way);
   }
   BoxTree tree;
   for (const BodyPair& pair : tree.update(boxes, world.states.moves))

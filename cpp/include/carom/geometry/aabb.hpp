@@ -15,6 +15,14 @@ struct Aabb {
     lower = lower.cwiseMin(point);
     upper = upper.cwiseMax(point);
   }
+  void extend(const Aabb& other) {
+    lower = lower.cwiseMin(other.lower);
+    upper = upper.cwiseMax(other.upper);
+  }
+  [[nodiscard]] bool contains(const Aabb& other) const {
+    return (lower.array() <= other.lower.array()).all() &&
+           (other.upper.array() <= upper.array()).all();
+  }
   [[nodiscard]] bool overlaps(const Aabb& other) const {
     return (lower.array() <= other.upper.array()).all() &&
            (other.lower.array() <= upper.array()).all();

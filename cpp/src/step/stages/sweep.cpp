@@ -70,15 +70,56 @@ void ask(World& world, int a, int b, double t) {
   std::push_heap(w.events.begin(), w.events.end());
 }
 
+const Aabb& box_of_path(World& world, int i) {
+  SweepWork& w = world.sweep;
+  if (!w.boxed[i]) w.boxes[i] = path_bounds(world, i), w.boxed[i] = 1;
+  return w.boxes[i];
+}
+
+/// Bodies whose motion in this step the pair stage did not foresee, as contacts pushed them farther
+/// than their box there allows, stand in its tree with the way they took.
+void foresee(World& world) {
+  SweepWork& w = world.sweep;
+  const BodyStates& s = world.states;
+  bool grown = false;
+  for (const int i : world.plan.movers) {
+    const Eigen::Vector3d way = s.position[i] - w.position_before[i];
+    const double turn = world.dt * s.angular_momentum[i].norm() * s.inverse_moments[i].maxCoeff();
+    const double bulge = 0.25 * (world.dt * s.velocity[i] - way).norm();
+    const double reach = world.reach[i] + 0.5 * tolerance::contact_margin;
+    if (way.norm() + turn * w.swing[i] + bulge <= reach) continue;
+    const Aabb& box = box_of_path(world, i);
+    if (world.boxes[i].contains(box)) continue;
+    world.boxes[i].extend(box);
+    grown = true;
+  }
+  if (grown) static_cast<void>(world.box_tree.update(world.boxes, s.moves));
+}
+
+/// Asks about every two of which one is fast, and whose ways may cross.
+void ask_all(World& world) {
+  SweepWork& w = world.sweep;
+  for (const BodyPair& pair : world.box_tree.pairs())
+    if ((w.fast[pair.a] || w.fast[pair.b]) &&
+        box_of_path(world, pair.a).overlaps(box_of_path(world, pair.b)))
+      ask(world, pair.a, pair.b, 0);
+}
+
 /// Asks again about everything a body with a new path may meet.
 void ask_about(World& world, int row, int done, double t) {
   SweepWork& w = world.sweep;
   if (!world.states.moves[row]) return;
-  w.boxes[row] = path_bounds(world, row);
-  for (int j = 0; j < static_cast<int>(w.boxes.size()); ++j) {
-    if (j == row || j == done || !w.boxes[j].overlaps(w.boxes[row])) continue;
-    ask(world, std::min(row, j), std::max(row, j), t);
-  }
+  const Aabb box = box_of_path(world, row);
+  world.box_tree.overlaps(box, w.met);
+  if (!world.boxes[row].contains(box) && std::ranges::find(w.strayed, row) == w.strayed.end())
+    w.strayed.push_back(row);
+  w.met.insert(w.met.end(), w.strayed.begin(), w.strayed.end());
+  std::ranges::sort(w.met);
+  const auto repeated = std::ranges::unique(w.met);
+  w.met.erase(repeated.begin(), repeated.end());
+  for (const int j : w.met)
+    if (j != row && j != done && box_of_path(world, j).overlaps(box))
+      ask(world, std::min(row, j), std::max(row, j), t);
 }
 
 void handle(World& world, const SweepEvent& event) {
@@ -103,6 +144,7 @@ void handle(World& world, const SweepEvent& event) {
     if (!world.states.moves[row]) continue;
     ++w.version[row];
     w.fast[row] = 1;
+    w.boxed[row] = 0;
   }
   ask_about(world, event.a, -1, t);
   ask_about(world, event.b, world.states.moves[event.a] ? event.a : -1, t);
@@ -140,10 +182,11 @@ void run_sweep(World& world) {
   if (verify)
     for (int i = 0; i < n; ++i) need_path(world, i);
   w.boxes.resize(n);
-  for (int i = 0; i < n; ++i) w.boxes[i] = path_bounds(world, i);
-  w.events.clear();
-  if (any)
-    for (const BodyPair& pair : w.tree.update(w.boxes, w.fast)) ask(world, pair.a, pair.b, 0);
+  w.events.clear(), w.strayed.clear();
+  if (any) {
+    foresee(world);
+    ask_all(world);
+  }
   while (!w.events.empty()) {
     std::pop_heap(w.events.begin(), w.events.end());
     const SweepEvent event = w.events.back();
