@@ -84,6 +84,10 @@ Eigen::Vector3d BodyStates::angular_velocity(int i) const {
   return q_wp * inverse_moments[i].cwiseProduct(momentum_p);
 }
 
+double BodyStates::angular_speed(int i) const {
+  return inverse_moments[i].cwiseProduct(orientation[i].conjugate() * angular_momentum[i]).norm();
+}
+
 Eigen::Matrix3d BodyStates::world_inverse_inertia(int i) const {
   const Eigen::Matrix3d R_wp = orientation[i].toRotationMatrix();
   return R_wp * inverse_moments[i].asDiagonal() * R_wp.transpose();

@@ -40,10 +40,11 @@ void take_impulses(World& world) {
 void measure_bodies(World& world) {
   const std::size_t n = world.scene.bodies.size();
   SweepWork& w = world.sweep;
-  w.thickness.resize(n), w.swing.resize(n), w.radius.resize(n);
+  w.thickness.resize(n), w.swing.resize(n), w.radius.resize(n), w.ccd.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Scene::Body& body = world.scene.bodies[i];
     w.thickness[i] = inner_radius(body.shape);
+    w.ccd[i] = body.ccd;
     w.swing[i] = turning_radius(body.shape) + body.properties.com.norm();
     w.radius[i] = bounding_radius(body.shape) + body.properties.com.norm();
   }

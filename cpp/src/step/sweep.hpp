@@ -8,6 +8,7 @@
 #include "carom/narrow/body_path.hpp"
 #include "carom/narrow/contacts.hpp"
 #include "carom/narrow/first_contact.hpp"
+#include "carom/scene/scene.hpp"
 #include "carom/state/report.hpp"
 
 #include "contact/impacts.hpp"
@@ -34,6 +35,7 @@ struct SweepWork {
   std::vector<double> thickness;     ///< m, by row: inner radius; refreshed with the plan
   std::vector<double> swing;         ///< m, by row: what a turn moves, about the centre of mass
   std::vector<double> radius;        ///< m, by row: that holds it, about the centre of mass
+  std::vector<Ccd> ccd;              ///< by row: beside each other, unlike those of the scene
   std::vector<std::uint8_t> fast;    ///< by row: swept in this step
   std::vector<BodyPair> left, kept;  ///< near pairs whose contacts the sweep, or the solver, takes
   Array3 position_before;            ///< where the step began
@@ -44,12 +46,11 @@ struct SweepWork {
   Array3 torque;                    ///< N m, by row: rate of the angular momentum over the step
   std::vector<std::uint8_t> waits;  ///< by row: stays where it is until the step ends
   std::vector<int> version, hits;   ///< by row
-  std::vector<Aabb> near;           ///< by row, of fast ones: box of the pair stage without the way
   std::vector<BodyPair> near_pairs;
   int ahead = 0;                    ///< rows whose way stands in the tree of the pair stage
   std::vector<int> strayed;         ///< rows whose path left the box it has in that tree
-  std::vector<std::uint8_t> boxed;  ///< by row: the box of its path is known
-  std::vector<Aabb> boxes;          ///< of the paths
+  std::vector<std::uint8_t> boxed;  ///< by row: its box below is known
+  std::vector<Aabb> boxes;          ///< of the paths; in the pair stage, of what is near
   std::vector<int> met;             ///< scratch of queries
   std::vector<SweepEvent> events;   ///< a heap
   std::vector<TrailPiece> trail;    ///< ways of the step, kept only to verify it

@@ -88,9 +88,10 @@ struct World {
   std::vector<double> island_still;      ///< scratch: by lowest row
   std::vector<Contact> asleep_contacts;  ///< what they start from when they wake
   std::vector<Aabb> boxes;
-  std::vector<Frame> frames;        ///< of the bodies, as the step began
+  std::vector<Frame> frames;  ///< of bodies in pairs, as the step began
+  std::vector<std::uint8_t> framed;
   std::vector<double> radius;       ///< m, bounding radius of the shape; kept while rows stay
-  std::vector<double> swing;        ///< m that turning can carry a point of the body in the step
+  std::vector<double> swing;        ///< m that turning can carry a point of one with a frame
   std::vector<double> reach;        ///< m a point of the body can travel in the step
   BoxTree box_tree;                 ///< keeps the pairs of the step
   PairFilter filter;                ///< of the scene's groups and named pairs
@@ -104,6 +105,12 @@ struct World {
 
 /// Of all UniformGravity effects, m/s^2.
 [[nodiscard]] Eigen::Vector3d gravity_of(const World& world);
+/// How far a body may turn in the step, rad: |L| over its least moment, which no frame is needed
+/// for and no tumbling exceeds.
+[[nodiscard]] inline double turn_bound(const World& world, int row) {
+  const BodyStates& s = world.states;
+  return world.dt * s.angular_momentum[row].norm() * s.inverse_moments[row].maxCoeff();
+}
 /// Rotation vector of the spring's body from its rest, rad, world axes.
 [[nodiscard]] Eigen::Vector3d twist_of(const World& world, const TorsionSpring& spring);
 

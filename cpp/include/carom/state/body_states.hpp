@@ -62,6 +62,7 @@ struct BodyStates {
 
   [[nodiscard]] Pose pose(int i) const;                         ///< of the body frame
   [[nodiscard]] Eigen::Vector3d angular_velocity(int i) const;  ///< rad/s, world axes
+  [[nodiscard]] double angular_speed(int i) const;              ///< rad/s
   [[nodiscard]] Eigen::Matrix3d world_inverse_inertia(int i) const;
   /// Velocity of a world point that moves with body i, m/s.
   [[nodiscard]] Eigen::Vector3d velocity_at(int i, const Eigen::Vector3d& point) const;

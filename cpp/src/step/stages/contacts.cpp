@@ -100,8 +100,7 @@ bool left_to_sweep(World& world, const BodyPair& pair, double restitution) {
       bounces = bounces || (meets && -2 * restitution * before > before - now);
     }
   if (!bounces) return false;
-  for (const int row : {pair.a, pair.b})
-    w.fast[row] = s.moves[row] && world.scene.bodies[row].ccd != Ccd::never;
+  for (const int row : {pair.a, pair.b}) w.fast[row] = s.moves[row] && w.ccd[row] != Ccd::never;
   return w.fast[pair.a] || w.fast[pair.b];
 }
 

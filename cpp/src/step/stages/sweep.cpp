@@ -14,19 +14,21 @@
 namespace carom {
 namespace {
 
-/// Marks what the step moved farther than allowed. The bound on turning is |L| over the least
-/// moment: no frame is needed for it.
+/// Marks what the step moved farther than allowed.
 bool mark_fast(World& world) {
   SweepWork& w = world.sweep;
   const BodyStates& s = world.states;
   bool any = false;
   for (const int i : world.plan.movers) {
-    const Ccd ccd = world.scene.bodies[i].ccd;
+    const Ccd ccd = w.ccd[i];
+    if (w.fast[i] && ccd != Ccd::never) {
+      any = true;
+      continue;
+    }
     const Eigen::Vector3d way = s.position[i] - w.position_before[i];
-    const double turn = world.dt * s.angular_momentum[i].norm() * s.inverse_moments[i].maxCoeff();
-    const double far = way.norm() + turn * w.swing[i];
-    const bool calls = far > tolerance::sweep_share * w.thickness[i] ||
-                       (ccd == Ccd::always && far > 0) || w.fast[i];
+    const double far = way.norm() + turn_bound(world, i) * w.swing[i];
+    const bool calls =
+        far > tolerance::sweep_share * w.thickness[i] || (ccd == Ccd::always && far > 0);
     w.fast[i] = calls && ccd != Ccd::never;
     any = any || w.fast[i];
   }
@@ -81,13 +83,16 @@ const Aabb& box_of_path(World& world, int i) {
 void foresee(World& world) {
   SweepWork& w = world.sweep;
   const BodyStates& s = world.states;
+  // What nothing held, slowed or pushed apart went the way that stands there already.
+  const bool free = !world.plan.runs(StageKind::drag) && !world.plan.runs(StageKind::repulsion);
+  const bool solved = world.plan.runs(StageKind::solve);
   bool grown = false;
   for (const int i : world.plan.movers) {
+    if (free && !(solved && world.solver.motion().decided[i])) continue;
     const Eigen::Vector3d way = s.position[i] - w.position_before[i];
-    const double turn = world.dt * s.angular_momentum[i].norm() * s.inverse_moments[i].maxCoeff();
     const double bulge = 0.25 * (world.dt * s.velocity[i] - way).norm();
     const double reach = world.reach[i] + 0.5 * tolerance::contact_margin;
-    if (way.norm() + turn * w.swing[i] + bulge <= reach) continue;
+    if (way.norm() + turn_bound(world, i) * w.swing[i] + bulge <= reach) continue;
     const Aabb& box = box_of_path(world, i);
     if (world.boxes[i].contains(box)) continue;
     world.boxes[i].extend(box);
@@ -96,12 +101,26 @@ void foresee(World& world) {
   if (grown) static_cast<void>(world.box_tree.update(world.boxes, s.moves));
 }
 
+/// Whether the balls about two bodies come together: seen from a, b goes along a chord that its
+/// true way leaves by no more than the bulge of both.
+bool balls_meet(const World& world, int a, int b) {
+  const SweepWork& w = world.sweep;
+  const BodyStates& s = world.states;
+  const Eigen::Vector3d from = w.position_before[b] - w.position_before[a];
+  const Eigen::Vector3d way = s.position[b] - s.position[a] - from;
+  const double bulge = 0.25 * (world.dt * (s.velocity[b] - s.velocity[a]) - way).norm();
+  const double share = std::clamp(-from.dot(way) / way.squaredNorm(), 0.0, 1.0);
+  const double least = (from + (share > 0 ? share : 0) * way).norm();
+  return !(least > w.radius[a] + w.radius[b] + tolerance::sweep_clear + bulge);
+}
+
 /// Asks about every two of which one is fast, and whose ways may cross.
 void ask_all(World& world) {
   SweepWork& w = world.sweep;
   for (const BodyPair& pair : world.box_tree.pairs())
     if ((w.fast[pair.a] || w.fast[pair.b]) &&
-        box_of_path(world, pair.a).overlaps(box_of_path(world, pair.b)))
+        box_of_path(world, pair.a).overlaps(box_of_path(world, pair.b)) &&
+        balls_meet(world, pair.a, pair.b))
       ask(world, pair.a, pair.b, 0);
 }
 
@@ -157,7 +176,7 @@ bool is_fast(const World& world, int a, int b, const Motion& of_a, const Motion&
   double thin = std::numeric_limits<double>::infinity();
   for (const int row : {a, b}) {
     if (!world.states.moves[row]) continue;
-    if (world.scene.bodies[row].ccd == Ccd::always) return true;
+    if (w.ccd[row] == Ccd::always) return true;
     thin = std::min(thin, w.thickness[row]);
   }
   const auto swing = [&](int row, const Motion& of) {  // a plane reaches for ever and never turns
