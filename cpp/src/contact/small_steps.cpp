@@ -47,6 +47,13 @@ BulkContacts as_doubles(std::span<Contact> contacts) {
           place(offsetof(Contact, impulse_at_end))};
 }
 
+/// Whether a sum of one kick per small step, each rounded, may be what one addition gave.
+bool same_but_for_rounding(const Eigen::Vector3d& sum, const Eigen::Vector3d& once,
+                           const Eigen::Vector3d& before, int kicks) {
+  const double largest = std::max(once.cwiseAbs().maxCoeff(), before.cwiseAbs().maxCoeff());
+  return (sum - once).cwiseAbs().maxCoeff() <= 2 * kicks * tolerance::unit_roundoff * largest;
+}
+
 }  // namespace
 
 Softness softness(int substeps, double dt, bool against_static) {
@@ -311,11 +318,20 @@ double SmallSteps::solve(BodyStates& states, const BodyFrames& frames, std::span
   kernels.write(batch, places);
   write_turns(contacts);
 
+  // What no contact pushed falls as if it were alone, not in small steps of first order.
+  felt_.assign(bodies_.size(), 0);
+  for (const Patch& p : patches_)
+    for (int k = p.first; k < p.first + p.count; ++k)
+      if (!contacts[k].impulse.isZero(0)) felt_[slot_[p.a]] = felt_[slot_[p.b]] = 1;
   const std::size_t moving = body_rows_.size();
   for (std::size_t i = 0; i < moving; ++i) {
     const int row = body_rows_[i];
     const BulkBody& body = bodies_[i];
     const Eigen::Vector3d v(body.velocity), w(body.angular_velocity);
+    if (!felt_[i] &&
+        same_but_for_rounding(v, frames.velocity[row], frames.velocity_before[row], substeps) &&
+        same_but_for_rounding(w, frames.omega[row], frames.omega_before[row], substeps))
+      continue;
     const Eigen::Quaterniond q = states.orientation[row];
     const Eigen::Vector3d twist = q.conjugate() * (w - frames.omega[row]);
     const Eigen::Vector3d gain = q * (states.moments[row].cwiseProduct(twist));  // kg m^2/s

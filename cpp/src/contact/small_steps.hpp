@@ -76,7 +76,8 @@ class SmallSteps {
   std::vector<BulkColour> stripes_;
   std::vector<Turn> turns_;
   std::vector<BulkBody> start_;
-  bool pushed_ = false;  // whether the kicks know what the contacts start with
+  std::vector<std::uint8_t> felt_;  // by slot: a contact pushed it in this step
+  bool pushed_ = false;             // whether the kicks know what the contacts start with
 };
 
 }  // namespace carom::contact
