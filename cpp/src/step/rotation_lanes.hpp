@@ -26,9 +26,12 @@ inline D gather(const double* from, const int* rows) {
 ///
 /// Turns about l commute with the rest, so only the body-frame rates count. Both are conserved:
 /// (k ld)^2 + k d l2^2 is (2 T - as |l|^2) k, so the spin of the top never exceeds
-/// B = sqrt(|that| + |k d| |l|^2). A step errs by about (h B)^2 |d/k| of a turn: sub-steps keep h B
-/// sqrt(2 |d/k|) below rotation_per_substep. They also keep h B below top_spin_per_substep, where
-/// the rest would be kicked at the top's own rhythm. A symmetric top needs none at any speed.
+/// B = sqrt(|that| + |k d| |l|^2). With A = k ld^2 / 2 and C = d l2^2 / 2, what the splitting keeps
+/// differs from the energy by h^2 ({A, {A, C}} / 12 + {C, {C, A}} / 24), where {A, {A, C}} is
+/// k^2 d ld^2 times a difference of two squares of l and the other k d^2 l2^2 times one: their
+/// swing is at most (h B)^2 |d| |l|^2 / 4. Sub-steps keep that below rotation_energy times T, and
+/// h B below top_spin_per_substep, where the rest would be kicked at the top's own rhythm. A
+/// symmetric top needs none at any speed.
 template <class D>
 inline D substeps_wanted(const Spin<D>& b, const TopSplit<D>& t, double dt) {
   const D k = t.k1 + t.k3;  // one of them is 0
@@ -40,9 +43,9 @@ inline D substeps_wanted(const Spin<D>& b, const TopSplit<D>& t, double dt) {
   const D turned = rate * (dt * dt);
   const auto matters = absolute(t.d) > tolerance::symmetric_moments * absolute(t.as);
   constexpr double per_spin = tolerance::top_spin_per_substep * tolerance::top_spin_per_substep;
-  constexpr double per_turn = tolerance::rotation_per_substep * tolerance::rotation_per_substep;
-  const D k2 = k * k;
-  const D by_rest = turned * (2.0 * kd) / ((k2 > 0.0 ? k2 : zero<D>() + 1.0) * per_turn);
+  const D energy = (t.as * square + k * (ld * ld)) + t.d * (l2 * l2);  // twice, J
+  const D by_rest = turned * (absolute(t.d) * square) /
+                    ((energy > 0.0 ? energy : zero<D>() + 1.0) * (2 * tolerance::rotation_energy));
   const D by_spin = turned * (1.0 / per_spin);
   return matters ? (by_rest > by_spin ? by_rest : by_spin) : zero<D>();
 }

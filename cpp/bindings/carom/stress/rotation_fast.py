@@ -70,8 +70,7 @@ def a_capped_spin_is_reported(spin: float = 1e6) -> float:
     "worst relative energy error in 600 steps of 1/60 s",
     2e-3,
     "1",
-    note="what the library says of its sub-steps (tolerance::rotation_per_substep): 8e-3 (h w)^2 "
-    "with h w <= 0.5, so 2e-3 at worst",
+    note="what the library says of its sub-steps (tolerance::rotation_energy)",
 )
 def fast_tumble_gets_substeps(method: str = "symmetric_top") -> float:
     moments, w = (1, 2, 2.5), np.array([300.0, 200, 100])

@@ -205,9 +205,13 @@ inline constexpr double slab_widening = 8 * unit_roundoff;
 /// 7e-15 of the rotation.
 inline constexpr double symmetric_moments = 64 * unit_roundoff;
 
-/// rad. A rotation sub-step may turn a body by no more (times sqrt of its asymmetry in the
-/// splittings): the splitting's energy error is about 8e-3 (h w)^2, so 2e-3 at worst, bounded.
+/// rad. A rotation sub-step of the methods that are no splitting may turn a body by no more: their
+/// errors of a step are of the cube of the turn.
 inline constexpr double rotation_per_substep = 0.5;
+
+/// Largest relative error in the energy of rotation that the sub-steps of a splitting leave; it
+/// swings and never drifts.
+inline constexpr double rotation_energy = 2e-3;
 
 /// rad. The spin of a nearly symmetric top per sub-step. At pi the kicks of the asymmetry come once
 /// per half turn, in the top's own rhythm, and add up; 2 keeps clear of it by a third.
