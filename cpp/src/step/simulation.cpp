@@ -40,19 +40,18 @@ void take_impulses(World& world) {
 void measure_bodies(World& world) {
   const std::size_t n = world.scene.bodies.size();
   SweepWork& w = world.sweep;
-  w.thickness.resize(n), w.swing.resize(n), w.radius.resize(n), w.ccd.resize(n);
+  w.thickness.resize(n), w.turning_radius.resize(n), w.radius.resize(n), w.ccd.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Scene::Body& body = world.scene.bodies[i];
     w.thickness[i] = inner_radius(body.shape);
     w.ccd[i] = body.ccd;
-    w.swing[i] = turning_radius(body.shape) + body.properties.com.norm();
+    w.turning_radius[i] = turning_radius(body.shape) + body.properties.com.norm();
     w.radius[i] = bounding_radius(body.shape) + body.properties.com.norm();
   }
 }
 
 void refresh_plan(World& world) {
   if (!world.plan_is_stale) return;
-  world.radius.clear();  // rows may have closed up
   world.plan = compile(world.scene, !world.requests.empty());
   world.filter.build(world.scene);
   if (!world.asleep.empty())

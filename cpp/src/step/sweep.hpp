@@ -32,11 +32,11 @@ struct SweepEvent {
 };
 
 struct SweepWork {
-  std::vector<double> thickness;     ///< m, by row: inner radius; refreshed with the plan
-  std::vector<double> swing;         ///< m, by row: what a turn moves, about the centre of mass
-  std::vector<double> radius;        ///< m, by row: that holds it, about the centre of mass
-  std::vector<Ccd> ccd;              ///< by row: beside each other, unlike those of the scene
-  std::vector<std::uint8_t> fast;    ///< by row: swept in this step
+  std::vector<double> thickness;       ///< m, by row: inner radius; refreshed with the plan
+  std::vector<double> turning_radius;  ///< m, by row: what a turn moves, about the centre of mass
+  std::vector<double> radius;          ///< m, by row: that holds it, about the centre of mass
+  std::vector<Ccd> ccd;                ///< by row: beside each other, unlike those of the scene
+  std::vector<std::uint8_t> fast;      ///< by row: swept in this step
   std::vector<BodyPair> left, kept;  ///< near pairs whose contacts the sweep, or the solver, takes
   Array3 position_before;            ///< where the step began
   Array4 orientation_before;

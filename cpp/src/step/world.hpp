@@ -90,7 +90,6 @@ struct World {
   std::vector<Aabb> boxes;
   std::vector<Frame> frames;  ///< of bodies in pairs, as the step began
   std::vector<std::uint8_t> framed;
-  std::vector<double> radius;       ///< m, bounding radius of the shape; kept while rows stay
   std::vector<double> swing;        ///< m that turning can carry a point of one with a frame
   std::vector<double> reach;        ///< m a point of the body can travel in the step
   BoxTree box_tree;                 ///< keeps the pairs of the step

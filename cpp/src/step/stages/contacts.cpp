@@ -129,7 +129,7 @@ void run_contacts(World& world) {
     world.manifolds.clear();
     world.manifold_cache.collide(
         pair.a, pair.b, placed(pair.a), placed(pair.b), margin_of(world, pair.a, pair.b),
-        std::min(world.radius[pair.a], world.radius[pair.b]), world.manifolds);
+        std::min(world.sweep.radius[pair.a], world.sweep.radius[pair.b]), world.manifolds);
     if (world.manifolds.empty()) continue;
     const Scene::Body& a = world.scene.bodies[pair.a];
     const Scene::Body& b = world.scene.bodies[pair.b];

@@ -54,7 +54,8 @@ void make_frames(World& world) {
     for (const int i : {pair.a, pair.b})
       if (!std::exchange(world.framed[i], 1)) {
         world.frames[i] = Frame(s.pose(i));
-        world.swing[i] = s.moves[i] ? world.dt * s.angular_speed(i) * world.sweep.swing[i] : 0;
+        world.swing[i] =
+            s.moves[i] ? world.dt * s.angular_speed(i) * world.sweep.turning_radius[i] : 0;
       }
 }
 
@@ -65,17 +66,13 @@ void run_pairs(World& world) {
   const std::size_t n = s.mass.size();
   world.boxes.resize(n), world.frames.resize(n);
   world.swing.resize(n), world.reach.resize(n);
-  if (world.radius.size() != n) {  // rows close up when a body goes: all are asked again
-    world.radius.resize(n);
-    for (std::size_t i = 0; i < n; ++i)
-      world.radius[i] = bounding_radius(world.scene.bodies[i].shape);
-  }
   SweepWork& w = world.sweep;
   w.fast.assign(n, 0);
   w.ahead = 0;
   for (int i = 0; i < s.size(); ++i) {
     // How far any point of the body can get in this step; contacts are looked for that far ahead.
-    double reach = s.moves[i] ? way_bound(world, i) + turn_bound(world, i) * w.swing[i] : 0;
+    double reach =
+        s.moves[i] ? way_bound(world, i) + turn_bound(world, i) * w.turning_radius[i] : 0;
     // Farther ahead than its own thickness a contact is a guess: the sweep finds what it meets.
     if (const double most = tolerance::sweep_share * w.thickness[i]; reach > most) {
       reach = most;

@@ -26,7 +26,7 @@ bool mark_fast(World& world) {
       continue;
     }
     const Eigen::Vector3d way = s.position[i] - w.position_before[i];
-    const double far = way.norm() + turn_bound(world, i) * w.swing[i];
+    const double far = way.norm() + turn_bound(world, i) * w.turning_radius[i];
     const bool calls =
         far > tolerance::sweep_share * w.thickness[i] || (ccd == Ccd::always && far > 0);
     w.fast[i] = calls && ccd != Ccd::never;
@@ -92,7 +92,7 @@ void foresee(World& world) {
     const Eigen::Vector3d way = s.position[i] - w.position_before[i];
     const double bulge = 0.25 * (world.dt * s.velocity[i] - way).norm();
     const double reach = world.reach[i] + 0.5 * tolerance::contact_margin;
-    if (way.norm() + turn_bound(world, i) * w.swing[i] + bulge <= reach) continue;
+    if (way.norm() + turn_bound(world, i) * w.turning_radius[i] + bulge <= reach) continue;
     const Aabb& box = box_of_path(world, i);
     if (world.boxes[i].contains(box)) continue;
     world.boxes[i].extend(box);
@@ -180,12 +180,12 @@ bool is_fast(const World& world, int a, int b, const Motion& of_a, const Motion&
     thin = std::min(thin, w.thickness[row]);
   }
   const auto swing = [&](int row, const Motion& of) {  // a plane reaches for ever and never turns
-    return world.states.moves[row] ? of.turn.norm() * w.swing[row] : 0.0;
+    return world.states.moves[row] ? of.turn.norm() * w.turning_radius[row] : 0.0;
   };
   double far = (of_b.way - of_a.way).norm() + swing(a, of_a) + swing(b, of_b);
   // As seen from a body that turns little, what turns with it stands still.
   const double common = (of_b.way - of_a.way - of_a.turn.cross(of_b.centre - of_a.centre)).norm() +
-                        (of_b.turn - of_a.turn).norm() * w.swing[b];
+                        (of_b.turn - of_a.turn).norm() * w.turning_radius[b];
   if (world.states.moves[a] && world.states.moves[b] && of_a.turn.norm() < tolerance::small_turn)
     far = std::min(far, common);
   return far > tolerance::sweep_share * thin;
