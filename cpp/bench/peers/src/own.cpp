@@ -57,6 +57,8 @@ struct Own : Engine {
     body.velocity = eigen(def.lin);
     body.angular_velocity = eigen(def.ang);
     body.friction = world.friction;
+    if (const auto i = world.opt.find("ccd"); i != world.opt.end() && i->second == "0")
+      body.ccd = carom::Ccd::never;
     scene.add(std::move(body));
   }
   bool addMesh(const Mesh& mesh) override {
