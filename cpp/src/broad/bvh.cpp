@@ -60,11 +60,20 @@ void append(void* sink, const std::uint64_t* found, int count) {
   list.insert(list.end(), found, found + count);
 }
 
+// Kernels read x, y, z row after row; columns of a wider matrix are copied to `room` first.
+VertexRef packed(const VertexRef& rows, TriangleMesh::Vertices& room) {
+  if (rows.outerStride() == 3) return rows;
+  room = rows;
+  return room;
+}
+
 }  // namespace
 
-Bvh::Bvh(const Eigen::Ref<const TriangleMesh::Vertices>& vertices,
+Bvh::Bvh(const Eigen::Ref<const TriangleMesh::Vertices>& given,
          const Eigen::Ref<const TriangleMesh::Faces>& faces, Volume volume, Quality quality) {
-  require_mesh(vertices, faces);
+  require_mesh(given, faces);
+  TriangleMesh::Vertices room;
+  const VertexRef vertices = packed(given, room);
   impl_ = std::make_unique<Impl>();
   impl_->volume = volume;
   impl_->quality = quality;
@@ -130,15 +139,23 @@ std::vector<BodyPair> Bvh::self_pairs() const {
   return sorted_pairs(std::move(keys), face_count());
 }
 
-void Bvh::refit(const Eigen::Ref<const TriangleMesh::Vertices>& vertices) {
-  if (vertices.rows() != impl_->vertex_count)
-    throw InvalidInput("vertices", std::to_string(vertices.rows()) + " rows",
+void Bvh::refit(const Eigen::Ref<const TriangleMesh::Vertices>& given) {
+  if (given.rows() != impl_->vertex_count)
+    throw InvalidInput("vertices", std::to_string(given.rows()) + " rows",
                        "must be as many as before: " + std::to_string(impl_->vertex_count),
                        "make a new Bvh for another mesh");
-  require_finite_vertices(vertices);
+  TriangleMesh::Vertices room;
+  const VertexRef vertices = packed(given, room);
+  // One pass finds the box and what is not finite; only then look for the row to name.
+  double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+  if (vertices.rows() > 0 &&
+      !impl_->kernels->extent(vertices.data(), static_cast<std::size_t>(vertices.rows()), low,
+                              high))
+    require_finite_vertices(vertices);
   if (impl_->faces.rows() == 0) return;
   if (impl_->parts.empty()) impl_->parts.measure(impl_->tree);  // as built, before anything moves
-  refit_tree(vertices, impl_->faces, impl_->tree);
+  impl_->tree.frame = frame_of_box(low, high);
+  fit(vertices, impl_->faces, impl_->tree);
   impl_->rebuilt_parts += impl_->parts.mend(vertices, impl_->faces, impl_->quality, impl_->tree);
   impl_->fit_volumes();
 }
@@ -150,7 +167,7 @@ std::size_t Bvh::memory_bytes() const {
   const WideTree& t = impl_->tree;
   return sizeof(WideNode) * static_cast<std::size_t>(t.node_count) +
          sizeof(Leaf) * static_cast<std::size_t>(t.leaf_count) +
-         sizeof(int) * static_cast<std::size_t>(impl_->faces.size()) +
+         sizeof(int) * (static_cast<std::size_t>(impl_->faces.size()) + t.corner_ids.size()) +
          impl_->spheres.memory_bytes() + impl_->oriented_boxes.memory_bytes();
 }
 Volume Bvh::volume() const {

@@ -51,15 +51,15 @@ void fill_item(const VertexRef& vertices, const FaceRef& faces, int face, const 
 }  // namespace
 
 Frame frame_of(const VertexRef& vertices) {
+  double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+  if (vertices.rows() > 0)
+    (void)wide_kernels().extent(vertices.data(), static_cast<std::size_t>(vertices.rows()), low,
+                                high);
+  return frame_of_box(low, high);
+}
+
+Frame frame_of_box(const double* low, const double* high) {
   Frame frame;
-  if (vertices.rows() == 0) return frame;
-  double low[3], high[3];
-  for (int k = 0; k < 3; ++k) low[k] = high[k] = vertices(0, k);
-  for (Eigen::Index i = 1; i < vertices.rows(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      low[k] = smaller(low[k], vertices(i, k));
-      high[k] = larger(high[k], vertices(i, k));
-    }
   double half = 0;
   for (int k = 0; k < 3; ++k) half = larger(half, 0.5 * high[k] - 0.5 * low[k]);
   int exponent = 0;
@@ -80,21 +80,6 @@ void write_leaf(const VertexRef& vertices, const FaceRef& faces, const int* ids,
       for (int k = 0; k < 3; ++k) leaf.corner[v][k][i] = p == nullptr ? 0.0 : p[k];
     }
   }
-}
-
-void leaf_bounds(const Leaf& leaf, const Frame& frame, float* out) {
-  const Outward outward(frame);
-  for (int k = 0; k < 3; ++k) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (int i = 0; i < leaf_width && leaf.face[i] >= 0; ++i)
-      for (int v = 0; v < 3; ++v) {
-        low = smaller(low, leaf.corner[v][k][i]);
-        high = larger(high, leaf.corner[v][k][i]);
-      }
-    out[k] = leaf.face[0] < 0 ? inf : outward.low(low, k);
-    out[4 + k] = leaf.face[0] < 0 ? inf : -outward.high(high, k);
-  }
-  out[3] = out[7] = 0;
 }
 
 PageArray<BuildItem> build_items(const VertexRef& vertices, const FaceRef& faces,
@@ -120,14 +105,6 @@ void fill_leaves(const VertexRef& vertices, const FaceRef& faces, const PageArra
     }
     write_leaf(vertices, faces, ids, tree.leaves[static_cast<std::size_t>(l)]);
   }
-}
-
-void fit_boxes(WideTree& tree) {
-  PageArray<float> bounds(static_cast<std::size_t>(tree.leaf_count) * 8);
-  for (int l = 0; l < tree.leaf_count; ++l)
-    leaf_bounds(tree.leaves[static_cast<std::size_t>(l)], tree.frame,
-                bounds.data() + std::ptrdiff_t{8} * l);
-  wide_kernels().refit(tree.nodes.data(), 0, tree.node_count, bounds.data());
 }
 
 }  // namespace
@@ -169,7 +146,7 @@ WideTree build_over(const VertexRef& vertices, const FaceRef& faces, PageArray<B
   tree.leaf_count = target.leaf_count;
   tree.root = target.root;
   fill_leaves(vertices, faces, items, leaf_begin.data(), tree);
-  if (quality == Quality::low) fit_boxes(tree);
+  if (quality == Quality::low) fit(vertices, faces, tree);
   return tree;
 }
 
@@ -182,15 +159,31 @@ WideTree build_tree(const VertexRef& vertices, const FaceRef& faces, Quality qua
   return build_over(vertices, faces, std::move(items), frame, quality);
 }
 
-void refit_tree(const VertexRef& vertices, const FaceRef& faces, WideTree& tree) {
-  tree.frame = frame_of(vertices);
-  for (int l = 0; l < tree.leaf_count; ++l) {
-    Leaf& leaf = tree.leaves[static_cast<std::size_t>(l)];
-    int ids[leaf_width];
-    std::copy_n(leaf.face, leaf_width, ids);
-    write_leaf(vertices, faces, ids, leaf);
+void name_corners(const FaceRef& faces, int first, int last, WideTree& tree) {
+  for (int l = first; l < last; ++l) {
+    const int* const face = tree.leaves[static_cast<std::size_t>(l)].face;
+    int* const ids = tree.corner_ids.data() + std::ptrdiff_t{corners_of_leaf} * l;
+    for (int i = 0; i < leaf_width; ++i)
+      for (int v = 0; v < 3; ++v) {
+        const int from = face[i] < 0 ? face[0] : face[i];
+        ids[leaf_width * v + i] = from < 0 ? 0 : faces(from, v);
+      }
   }
-  fit_boxes(tree);
+}
+
+void fit(const VertexRef& vertices, const FaceRef& faces, WideTree& tree) {
+  if (tree.corner_ids.size() == 0 && tree.leaf_count > 0) {
+    tree.corner_ids =
+        PageArray<int>(std::size_t{corners_of_leaf} * static_cast<std::size_t>(tree.leaf_count));
+    name_corners(faces, 0, tree.leaf_count, tree);
+  }
+  wide_kernels().refit({.nodes = tree.nodes.data(),
+                        .node_count = tree.node_count,
+                        .root = tree.root,
+                        .leaves = tree.leaves.data(),
+                        .corner_ids = tree.corner_ids.data(),
+                        .vertices = vertices.data(),
+                        .frame = tree.frame});
 }
 
 }  // namespace carom::broad

@@ -322,31 +322,3 @@ static void build(BuildTarget& target) {
   target.root = builder.build(all, 0);
   target.leaf_begin[target.leaf_count] = target.count;
 }
-
-static void refit(WideNode* nodes, int first, int last, const float* leaf_bounds) {
-  for (int index = last - 1; index >= first; --index) {
-    WideNode& node = nodes[index];
-    for (int k = 0; k < wide; ++k) {
-      const std::uint32_t ref = node.child[k];
-      if (ref == no_child) continue;
-      if ((ref & leaf_flag) != 0) {
-        const float* const b = leaf_bounds + std::size_t{8} * (ref & ~leaf_flag);
-        for (int a = 0; a < 3; ++a) {
-          node.bounds[a][k] = b[a];
-          node.bounds[3 + a][k] = -b[4 + a];
-        }
-        continue;
-      }
-      const WideNode& child = nodes[ref];
-      for (int a = 0; a < 3; ++a) {
-        float low = child.bounds[a][0], high = child.bounds[3 + a][0];
-        for (int i = 1; i < wide; ++i) {
-          low = child.bounds[a][i] < low ? child.bounds[a][i] : low;
-          high = child.bounds[3 + a][i] > high ? child.bounds[3 + a][i] : high;
-        }
-        node.bounds[a][k] = low;
-        node.bounds[3 + a][k] = high;
-      }
-    }
-  }
-}

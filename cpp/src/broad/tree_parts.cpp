@@ -26,24 +26,31 @@ double area_of_union(const WideNode& node) {
   return half_area(all, 0);
 }
 
-// Surface of all children of nodes [first, last) against that of the whole, the expected number of
-// children a ray enters (surface area heuristic).
-double cost_of(const WideTree& tree, std::uint32_t first, std::uint32_t last) {
-  double sum = 0;
-  for (std::uint32_t n = first; n < last; ++n)
-    for (int i = 0; i < wide; ++i)
-      if (tree.nodes[n].child[i] != no_child) sum += half_area(tree.nodes[n], i);
-  const double whole = area_of_union(tree.nodes[first]);
-  return whole > 0 ? sum / whole : 0;
+void measure_surfaces(const WideTree& tree, std::uint32_t first, int count,
+                      std::vector<double>& out) {
+  const int begin = static_cast<int>(first);
+  wide_kernels().surfaces(tree.nodes.data(), begin, begin + count, out.data());
 }
 
 }  // namespace
+
+// Surface of all children of some nodes against that of the whole, the expected number of children
+// a ray enters (surface area heuristic).
+double TreeParts::cost_of(const WideTree& tree, std::uint32_t first, int count) const {
+  double sum = 0;
+  for (std::uint32_t n = first; n < first + static_cast<std::uint32_t>(count); ++n)
+    sum += surfaces_[n];
+  const double whole = area_of_union(tree.nodes[first]);
+  return whole > 0 ? sum / whole : 0;
+}
 
 void TreeParts::measure(const WideTree& tree) {
   parts_.clear();
   if (tree.root == no_child || (tree.root & leaf_flag) != 0) return;
   // Sizes of subtrees: children come after their parents, leaves are numbered in order.
   const auto n = static_cast<std::size_t>(tree.node_count);
+  surfaces_.resize(n);
+  measure_surfaces(tree, 0, tree.node_count, surfaces_);
   std::vector<int> nodes(n, 1), first(n, 0), last(n, 0);
   for (std::size_t k = n; k-- > 0;) {
     const WideNode& node = tree.nodes[k];
@@ -65,7 +72,7 @@ void TreeParts::measure(const WideTree& tree) {
     const std::uint32_t k = waiting.back();
     waiting.pop_back();
     if (last[k] - first[k] <= most || k == tree.root) {
-      const double cost = cost_of(tree, k, k + static_cast<std::uint32_t>(nodes[k]));
+      const double cost = cost_of(tree, k, nodes[k]);
       if (k != tree.root) {
         parts_.push_back({k, nodes[k], first[k], last[k], cost});
         continue;
@@ -82,9 +89,9 @@ int TreeParts::mend(const VertexRef& vertices, const FaceRef& faces, Quality qua
                     WideTree& tree) {
   if (parts_.empty()) return 0;
   int mended = 0;
+  measure_surfaces(tree, 0, tree.node_count, surfaces_);
   for (Part& part : parts_) {
-    const std::uint32_t end = part.node + static_cast<std::uint32_t>(part.node_count);
-    if (!(cost_of(tree, part.node, end) > spoilt * part.cost)) continue;
+    if (!(cost_of(tree, part.node, part.node_count) > spoilt * part.cost)) continue;
     std::vector<int> ids;
     for (int l = part.leaf_begin; l < part.leaf_end; ++l)
       for (const int face : tree.leaves[static_cast<std::size_t>(l)].face)
@@ -110,10 +117,12 @@ int TreeParts::mend(const VertexRef& vertices, const FaceRef& faces, Quality qua
       if (l < fresh.leaf_count) leaf = fresh.leaves[static_cast<std::size_t>(l)];
       tree.leaves[static_cast<std::size_t>(part.leaf_begin + l)] = leaf;
     }
-    part.cost = std::max(part.cost, cost_of(tree, part.node, end));
+    name_corners(faces, part.leaf_begin, part.leaf_end, tree);
+    measure_surfaces(tree, part.node, part.node_count, surfaces_);
+    part.cost = std::max(part.cost, cost_of(tree, part.node, part.node_count));
     ++mended;
   }
-  if (cost_of(tree, tree.root, static_cast<std::uint32_t>(tree.node_count)) > spoilt * top_cost_) {
+  if (cost_of(tree, tree.root, tree.node_count) > spoilt * top_cost_) {
     tree = build_tree(vertices, faces, quality);
     measure(tree);
     ++mended;

@@ -21,7 +21,10 @@ class TreeParts {
     int node_count, leaf_begin, leaf_end;
     double cost;
   };
+  [[nodiscard]] double cost_of(const WideTree& tree, std::uint32_t first, int count) const;
+
   std::vector<Part> parts_;
+  std::vector<double> surfaces_;  // of each node's children, see WideKernels
   double top_cost_ = 0;
 };
 

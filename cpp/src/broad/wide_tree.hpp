@@ -70,10 +70,27 @@ struct BuildTarget {
 };
 inline constexpr int max_bins = 32;
 
+/// A tree and where its vertices now are.
+struct RefitTarget {
+  WideNode* nodes;
+  int node_count;
+  std::uint32_t root;
+  Leaf* leaves;
+  /// Rows of `vertices` of each leaf: corner, triangle; unused lanes repeat the first.
+  const int* corner_ids;
+  const double* vertices;  ///< x, y, z per row
+  Frame frame;             ///< theirs
+};
+inline constexpr int corners_of_leaf = 3 * leaf_width;
+
 struct WideKernels {
   void (*build)(BuildTarget& target);
-  /// Boxes of nodes [first, last) from their children; leaf_bounds: 8 floats a leaf, as BuildItem.
-  void (*refit)(WideNode* nodes, int first, int last, const float* leaf_bounds);
+  /// Corners of the leaves, then boxes of the nodes. Faces of the leaves stay.
+  void (*refit)(const RefitTarget& target);
+  /// Half the surface of the children of nodes [first, last) each, in tree space.
+  void (*surfaces)(const WideNode* nodes, int first, int last, double* out);
+  /// Box of at least one row of x, y, z; false when one is not finite.
+  bool (*extent)(const double* vertices, std::size_t rows, double* low, double* high);
   void (*raycast)(const WideTreeView& tree, const Ray* rays, int count, Nearest* out);
   void (*any_hit)(const WideTreeView& tree, const Ray* rays, int count, std::uint8_t* out);
   /// Emits faces whose box overlaps (lower x, y, z, upper x, y, z).

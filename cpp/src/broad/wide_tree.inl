@@ -502,5 +502,7 @@ static void closest(const WideTreeView& tree, const double* point, Nearest& best
   }
 }
 
-extern const WideKernels wide_kernels = {build,    refit,   raycast,   any_hit,
-                                         overlaps, closest, self_pairs};
+#include "broad/refit.inl"
+
+extern const WideKernels wide_kernels = {build,   refit,    surfaces, extent,    raycast,
+                                         any_hit, overlaps, closest,  self_pairs};

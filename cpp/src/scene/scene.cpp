@@ -79,11 +79,16 @@ BodyId Scene::add(BodyDefinition body) {
   const BodyId id{next_id_};
   if (body.name.empty()) body.name = "body_" + std::to_string(id.value);
   require_valid(body);
-  if (find(body.name))
+  if (names_.size() != bodies.size()) {
+    names_.clear();
+    for (const Body& b : bodies) names_.add(b.name, b.id);
+  }
+  if (find_indexed(body.name, names_compared_))
     throw InvalidInput("name", "'" + body.name + "'", "is taken", "names are unique in a scene");
   body.pose.orientation.normalize();
   const MassProperties properties = mass_properties(body);
   bodies.push_back({std::move(body), id, properties});
+  names_.add(bodies.back().name, id);
   ++next_id_;
   return id;
 }
@@ -109,12 +114,24 @@ void Scene::never_meet(BodyId a, BodyId b) {
 void Scene::remove(BodyId id) {
   const std::optional<int> i = row(id);
   if (!i) throw InvalidInput("body", std::to_string(id.value), "is not in the scene");
+  names_.remove(bodies[*i].name, id);
   bodies.erase(bodies.begin() + *i);
   std::erase_if(never, [&](const auto& pair) { return pair.first == id || pair.second == id; });
   std::erase_if(effects, [&](const Effect& effect) { return body_of(effect) == id; });
 }
 
+std::optional<BodyId> Scene::find_indexed(std::string_view name, std::int64_t& compared) const {
+  const auto named = [&](BodyId id) {
+    const std::optional<int> i = row(id);
+    return i && bodies[*i].name == name;
+  };
+  return names_.find(name, named, compared);
+}
+
 std::optional<BodyId> Scene::find(std::string_view name) const {
+  std::int64_t compared = 0;
+  if (const auto id = find_indexed(name, compared)) return id;
+  // Whoever renames a body in place is still found.
   const auto it = std::ranges::find(bodies, name, &Body::name);
   return it == bodies.end() ? std::nullopt : std::optional(it->id);
 }

@@ -75,8 +75,8 @@ TEST(MeshIndex, AgreesOnMixedSizes) {
   expect_all_agree(mesh, 400, 10);
 }
 
-TEST(MeshIndex, BuildsFromAHundredThousandEqualFaces) {
-  // Case C16: no split can part them. Depth stays within its bound and queries still answer.
+TEST(MeshIndex, AnswersAmongAHundredThousandEqualFaces) {
+  // Case C16: no split can part them. Depth stays within its bound; of equals the lowest is named.
   constexpr int n = 100000;
   TriangleMesh mesh;
   mesh.vertices.resize(3, 3);
@@ -86,16 +86,78 @@ TEST(MeshIndex, BuildsFromAHundredThousandEqualFaces) {
   TriangleMesh::Vertices start(1, 3), end(1, 3);
   start << 0.2, 0.2, 1;
   end << 0.2, 0.2, -1;
+  const auto expect_lowest = [&](const MeshIndex& index, const char* what) {
+    SCOPED_TRACE(what);
+    const SegmentHit hit = index.segments(start, end).front();
+    EXPECT_EQ(hit.face, 0);
+    EXPECT_EQ(hit.fraction, 0.5);
+    EXPECT_EQ(index.raycast(start, end - start).front().face, 0);
+    EXPECT_EQ(index.any_hit(start, start - end).front(), 0);
+    const ClosestPoint near = index.closest(end).front();
+    EXPECT_EQ(near.face, 0);
+    EXPECT_EQ(near.distance, 1);
+    EXPECT_EQ(index.overlaps(end, start.cwiseMax(end)).faces.size(), 0U + n);
+    EXPECT_TRUE(index.overlaps(start, start).faces.empty());
+  };
   for (const Quality quality : {Quality::low, Quality::medium, Quality::high}) {
     const Bvh tree(mesh.vertices, mesh.faces, Volume::box, quality);
     EXPECT_LE(tree.depth(), 64);
-    const SegmentHit hit = tree.segments(start, end).front();
-    EXPECT_EQ(hit.face, 0);
-    EXPECT_EQ(hit.fraction, 0.5);
-    EXPECT_EQ(tree.overlaps(end, start.cwiseMax(end)).faces.size(), 0U + n);
+    expect_lowest(tree, "boxes");
   }
-  const HashGrid grid(mesh.vertices, mesh.faces);
-  EXPECT_EQ(grid.segments(start, end).front().face, 0);
+  expect_lowest(Bvh(mesh.vertices, mesh.faces, Volume::sphere), "spheres");
+  expect_lowest(Bvh(mesh.vertices, mesh.faces, Volume::oriented_box), "oriented boxes");
+  expect_lowest(HashGrid(mesh.vertices, mesh.faces), "grid");
+}
+
+TEST(MeshIndex, AgreesWhereEveryFaceIsThatSamePoint) {
+  // Boxes of no size in a mesh of no size, near the origin and where a spacing of doubles is 1.5e-8
+  for (const double offset : {0.0, 3.0, 1e8}) {
+    TriangleMesh mesh;
+    mesh.vertices = TriangleMesh::Vertices::Constant(3, 3, offset);
+    mesh.faces.resize(60, 3);
+    for (int f = 0; f < 60; ++f) mesh.faces.row(f) << f % 3, (f + 1) % 3, 2;
+    expect_all_agree(mesh, 60, 19);
+  }
+}
+
+TEST(MeshIndex, AgreesOnOneFaceOfEveryKind) {
+  for (const double offset : {0.0, 1e8, -1e8})
+    for (const int kind : {0, 1, 2, 3}) {
+      TriangleMesh mesh;
+      mesh.vertices.resize(3, 3);
+      mesh.vertices << 0, 0, 0, 2, 0.5, 1, 0.25, 1, -3;
+      if (kind == 1) mesh.vertices.row(2) = 0.5 * mesh.vertices.row(1);                   // a line
+      if (kind == 2) mesh.vertices.row(2) << 2, 0.5, 1 + 1e-9;                            // needle
+      if (kind == 3) mesh.vertices.row(1) = mesh.vertices.row(2) = mesh.vertices.row(0);  // point
+      mesh.vertices.array() += offset;
+      mesh.faces.resize(1, 3);
+      mesh.faces << 0, 1, 2;
+      expect_all_agree(mesh, 100, 20);
+    }
+}
+
+TEST(MeshIndex, ReadsRowsThatLieApart) {
+  // Columns of a wider matrix: rows of x, y, z with other numbers between them.
+  const TriangleMesh mesh = bumpy_sphere(8, 0.2);
+  Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor> wide(mesh.vertices.rows(), 5);
+  wide.setConstant(77);
+  wide.leftCols<3>() = mesh.vertices;
+  Random random(21);
+  const Queries q(mesh, 60, random);
+  const AllFaces truth(mesh.vertices, mesh.faces);
+  const auto apart = wide.leftCols<3>();
+  for (const Quality quality : {Quality::low, Quality::medium}) {
+    Bvh tree(apart, mesh.faces, Volume::box, quality);
+    expect_same(tree, truth, q, "tree");
+    tree.refit(apart);
+    expect_same(tree, truth, q, "after refit");
+  }
+  expect_same(HashGrid(apart, mesh.faces), truth, q, "grid");
+  expect_same(AllFaces(apart, mesh.faces), truth, q, "all");
+  wide.leftCols<3>().topRows(40) = q.starts.topRows(40);
+  const TriangleMesh::Vertices starts = wide.leftCols<3>().topRows(40);
+  const auto a = truth.closest(wide.leftCols<3>().topRows(40)), b = truth.closest(starts);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].point, b[i].point);
 }
 
 TEST(MeshIndex, StaysShallowForNestedSizes) {
@@ -276,10 +338,14 @@ TEST(MeshIndex, RefusesWhatItCannotUse) {
   TriangleMesh mesh = bumpy_sphere(6, 0);
   TriangleMesh::Vertices bad = mesh.vertices;
   bad(3, 1) = std::nan("");
-  EXPECT_THROW(Bvh(bad, mesh.faces), InvalidInput);
-  EXPECT_THROW(HashGrid(bad, mesh.faces), InvalidInput);
-  bad(3, 1) = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(Bvh(bad, mesh.faces), InvalidInput);
+  for (const double x : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    bad(3, 1) = x;
+    for (const Volume volume : {Volume::box, Volume::sphere, Volume::oriented_box})
+      for (const Quality quality : {Quality::low, Quality::medium, Quality::high})
+        EXPECT_THROW(Bvh(bad, mesh.faces, volume, quality), InvalidInput);
+    EXPECT_THROW(HashGrid(bad, mesh.faces), InvalidInput);
+    EXPECT_THROW(AllFaces(bad, mesh.faces), InvalidInput);
+  }
   TriangleMesh::Faces faces = mesh.faces;
   faces(2, 0) = static_cast<int>(mesh.vertices.rows());
   EXPECT_THROW(Bvh(mesh.vertices, faces), InvalidInput);

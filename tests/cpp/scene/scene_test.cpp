@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -52,6 +53,40 @@ INSTANTIATE_TEST_SUITE_P(
                 {.name = "b", .shape = Sphere{1}, .is_static = true, .velocity = {1, 0, 0}},
                 "b.velocity"}),
     [](const auto& test) { return std::string(test.param.case_name); });
+
+TEST(Scene, ComparesNoNamesToAddManyBodies) {
+  // A scan would compare n (n - 1) / 2 = 2.1 million names. Hashes of 64 bits let two names meet by
+  // chance once in 2^40 such scenes; four leave room for a poorer hash.
+  constexpr int n = 2048;
+  Scene scene;
+  for (int i = 0; i < n; ++i)
+    scene.add({.name = i % 2 == 0 ? "" : "b" + std::to_string(i), .shape = Sphere{1}});
+  EXPECT_LE(scene.names_compared(), 4);
+  EXPECT_EQ(scene.find("body_1024")->value, 1024U);
+  EXPECT_EQ(scene.find("b1025")->value, 1025U);
+  EXPECT_THROW(scene.add({.name = "b1025", .shape = Sphere{1}}), InvalidInput);
+}
+
+TEST(Scene, FindsNamesAfterRemovalRenamingAndCopy) {
+  Scene scene;
+  const BodyId a = scene.add({.name = "a", .shape = Sphere{1}});
+  const BodyId b = scene.add({.name = "b", .shape = Sphere{1}});
+  scene.remove(a);
+  EXPECT_FALSE(scene.find("a"));
+  EXPECT_EQ(scene.find("b"), b);
+  const BodyId again = scene.add({.name = "a", .shape = Sphere{1}});
+  Scene copy = scene;
+  EXPECT_EQ(copy.find("a"), again);
+  EXPECT_THROW(copy.add({.name = "b", .shape = Sphere{1}}), InvalidInput);
+  // Bodies are plain data: whatever is done to them, names are those they carry.
+  copy.bodies[0].name = "c";
+  EXPECT_EQ(copy.find("c"), b);
+  EXPECT_FALSE(copy.find("b"));
+  copy.bodies.erase(copy.bodies.begin());
+  EXPECT_FALSE(copy.find("c"));
+  EXPECT_NO_THROW(copy.add({.name = "c", .shape = Sphere{1}}));
+  EXPECT_THROW(copy.add({.name = "c", .shape = Sphere{1}}), InvalidInput);
+}
 
 TEST(Scene, NeverUsesAnIdAgain) {
   Scene scene;

@@ -11,6 +11,7 @@
 #include "carom/bodies/mass_properties.hpp"
 #include "carom/geometry/shape.hpp"
 #include "carom/scene/effects.hpp"
+#include "carom/scene/name_index.hpp"
 
 namespace carom {
 
@@ -70,11 +71,20 @@ struct Scene {
   void never_meet(BodyId a, BodyId b);
   /// Ids are never used again. @throws InvalidInput when there is no such body
   void remove(BodyId id);
+  /// O(1) for a name that is there, O(n) for one that is not.
   [[nodiscard]] std::optional<BodyId> find(std::string_view name) const;
   /// Row of the body now, or nothing. O(log n): ids ascend with rows.
   [[nodiscard]] std::optional<int> row(BodyId id) const;
 
+  /// Names that add() has compared so far to keep them unique: none unless hashes coincide.
+  [[nodiscard]] std::int64_t names_compared() const { return names_compared_; }
+
  private:
+  [[nodiscard]] std::optional<BodyId> find_indexed(std::string_view name,
+                                                   std::int64_t& compared) const;
+
+  NameIndex names_;  // beside `bodies`, which stay plain: made anew by add() when they differ
+  std::int64_t names_compared_ = 0;
   std::uint32_t next_id_ = 0;
 };
 
