@@ -119,8 +119,9 @@ struct Search {
         world.extents().maxCoeff() > 2 * size) {
       const double middle = 0.5 * (t0 + t1);
       faces(s, path_s, part, radius, surface_is_a, t0, middle, halvings + 1);
-      if (best.status == Status::clear)
-        faces(s, path_s, part, radius, surface_is_a, middle, t1, halvings + 1);
+      // Another part may have met before, or in the half just searched: later ones are of no use.
+      t1 = std::min(t1, last());
+      if (middle < t1) faces(s, path_s, part, radius, surface_is_a, middle, t1, halvings + 1);
       return;
     }
     for (const int f : near) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "carom/geometry/thickness.hpp"
 #include "carom/numerics/invalid_input.hpp"
@@ -48,6 +49,13 @@ void measure_bodies(World& world) {
     w.turning_radius[i] = turning_radius(body.shape) + body.properties.com.norm();
     w.radius[i] = bounding_radius(body.shape) + body.properties.com.norm();
   }
+  double thickest = 0, thinnest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < n; ++i)
+    if (const double t = w.thickness[i]; world.states.moves[i])
+      thickest = std::max(thickest, t);
+    else
+      thinnest = std::min(thinnest, t);
+  w.has_thin = thinnest < thickest;
 }
 
 void refresh_plan(World& world) {

@@ -36,7 +36,8 @@ struct SweepWork {
   std::vector<double> turning_radius;  ///< m, by row: what a turn moves, about the centre of mass
   std::vector<double> radius;          ///< m, by row: that holds it, about the centre of mass
   std::vector<Ccd> ccd;                ///< by row: beside each other, unlike those of the scene
-  std::vector<std::uint8_t> fast;      ///< by row: swept in this step
+  bool has_thin = false;             ///< something that stands is thinner than something that moves
+  std::vector<std::uint8_t> fast;    ///< by row: swept in this step
   std::vector<BodyPair> left, kept;  ///< near pairs whose contacts the sweep, or the solver, takes
   Array3 position_before;            ///< where the step began
   Array4 orientation_before;
@@ -72,6 +73,13 @@ struct Motion {
 /// they share does not count: a heap that falls as one is no case for the sweep.
 [[nodiscard]] bool is_fast(const World& world, int a, int b, const Motion& of_a,
                            const Motion& of_b);
+
+/// Whether the turn of one against the other may carry corners that no contact knows of through the
+/// thinner of the two, standing ones included: a sheet has no inside from which to push them back.
+[[nodiscard]] bool turns_through(const World& world, int a, int b, const Eigen::Vector3d& turn_a,
+                                 const Eigen::Vector3d& turn_b);
+/// Marks as fast what the solver has turned like that. True when there is any.
+bool mark_turned(World& world);
 
 /// No path is known yet.
 void begin_paths(World& world);

@@ -82,6 +82,35 @@ TEST(FirstContact, ASheetHoldsFromBothSides) {
 
 // The rod's axis turns about z; a ball of 0.05 stands at radius 0.9 and angle phi. They touch when
 // 0.9 sin(phi - theta) = 0.07.
+// A long way over a fine sheet is searched in halves. A part that meets late, found first, must not
+// end the search for one that meets earlier, but not in the first half.
+TEST(FirstContact, EachPartOfABodyIsFollowedToTheFirstContactOfAny) {
+  constexpr int cells = 40;
+  TriangleMesh m;  // in the plane z = 0, cells of 0.5 m
+  m.vertices.resize((cells + 1) * (cells + 1), 3);
+  m.faces.resize(2 * cells * cells, 3);
+  for (int j = 0; j <= cells; ++j)
+    for (int i = 0; i <= cells; ++i) m.vertices.row(j * (cells + 1) + i) << 0.5 * i, 0.5 * j, 0;
+  for (int j = 0, f = 0; j < cells; ++j)
+    for (int i = 0; i < cells; ++i) {
+      const int a = j * (cells + 1) + i, b = a + cells + 1;
+      m.faces.row(f++) << a, a + 1, b + 1;
+      m.faces.row(f++) << a, b + 1, b;
+    }
+  const Shape ground = Mesh(m);
+  const Vector3d velocity(180, 0, -10);
+  for (const double low : {-0.05, -0.15, -0.3}) {  // m, by how much the second part hangs lower
+    const Shape body = Compound({{Sphere{0.05}, {.position = {0, 0, 0}}},
+                                 {Sphere{0.05}, {.position = {0.2, 0.1, low}}}});
+    const BodyPath path = path_of({1, 10, 1.0}, velocity);
+    const FirstContact r = first_contact(ground, path_of({0, 0, 0}), body, path, 0, 0.1);
+    ASSERT_EQ(r.status, Status::contact) << low;
+    const double exact = (1.0 + low - 0.05) / 10;
+    EXPECT_LE(r.time, exact) << low;
+    EXPECT_GE(r.time, exact - 1.51 * clear / 10) << low;
+  }
+}
+
 TEST(FirstContact, ASpinningRodMeetsAPostAtItsAngle) {
   const Shape rod = Capsule{0.02, 2}, post = Sphere{0.05};
   const Quaterniond along_x(Eigen::AngleAxisd(pi / 2, Vector3d::UnitY()));

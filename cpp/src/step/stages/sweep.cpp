@@ -188,13 +188,15 @@ bool is_fast(const World& world, int a, int b, const Motion& of_a, const Motion&
                         (of_b.turn - of_a.turn).norm() * w.turning_radius[b];
   if (world.states.moves[a] && world.states.moves[b] && of_a.turn.norm() < tolerance::small_turn)
     far = std::min(far, common);
-  return far > tolerance::sweep_share * thin;
+  return far > tolerance::sweep_share * thin || turns_through(world, a, b, of_a.turn, of_b.turn);
 }
 
 void run_sweep(World& world) {
   SweepWork& w = world.sweep;
   const int n = world.states.size();
-  const bool any = mark_fast(world), verify = world.options.verify;
+  bool any = mark_fast(world);
+  any = mark_turned(world) || any;
+  const bool verify = world.options.verify;
   world.report.sweep.swept = static_cast<int>(std::ranges::count(w.fast, 1));
   if (!any && !verify) return;
   begin_paths(world);
