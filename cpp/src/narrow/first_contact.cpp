@@ -246,7 +246,7 @@ FirstContact first_contact(const Shape& a, const BodyPath& path_a, const Shape& 
   const double left = 1 + std::min(now.best.gap, 0.0) / deepest;
   const double slop = tolerance::sweep_slop * std::max(left, tolerance::sweep_least_slop);
   search.target =
-      now.best.gap > 1.5 * tolerance::sweep_clear ? tolerance::sweep_clear : now.best.gap - slop;
+      now.best.gap > tolerance::sweep_leaves ? tolerance::sweep_clear : now.best.gap - slop;
   search.best.time = end;
   search.run(of_a, of_b);
   search.best.gap = std::min(search.best.gap, now.best.gap);

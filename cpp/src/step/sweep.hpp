@@ -39,6 +39,7 @@ struct SweepWork {
   bool has_thin = false;             ///< something that stands is thinner than something that moves
   std::vector<std::uint8_t> fast;    ///< by row: swept in this step
   std::vector<BodyPair> left, kept;  ///< near pairs whose contacts the sweep, or the solver, takes
+  std::vector<BodyPair> free;        ///< of those kept, what is apart and would bounce
   Array3 position_before;            ///< where the step began
   Array4 orientation_before;
   std::vector<BodyPath> paths;      ///< by row, of this step

@@ -72,9 +72,21 @@ void warm_start(World& world) {
   }
 }
 
+/// Whether all points of the pair at hand are apart, and it would bounce.
+bool bounces_freely(const World& world, double restitution) {
+  return restitution > 0 && std::ranges::all_of(world.manifolds, [](const Manifold& m) {
+           return std::all_of(m.points.begin(), m.points.begin() + m.count, [](const auto& p) {
+             return p.separation > tolerance::sweep_touch;
+           });
+         });
+}
+
 /// Whether the sweep finds these contacts at their time: the pair is apart, and one of them is fast
-/// or bounces for longer than a step.
-bool left_to_sweep(World& world, const BodyPair& pair, double restitution) {
+/// or bounces for longer than a step. What meets in the step after this one counts as well: the
+/// small steps of the solver look one ahead, and stop there what should bounce.
+///
+/// `apart` becomes the gap up to which points of a pair that bounces stay with the solver, m.
+bool left_to_sweep(World& world, const BodyPair& pair, double restitution, double& apart) {
   SweepWork& w = world.sweep;
   if (w.fast[pair.a] || w.fast[pair.b]) {
     const BodyStates& states = world.states;
@@ -82,7 +94,7 @@ bool left_to_sweep(World& world, const BodyPair& pair, double restitution) {
       return Motion{states.position[i], world.dt * states.velocity[i],
                     world.dt * states.angular_velocity(i)};
     };
-    return is_fast(world, pair.a, pair.b, motion(pair.a), motion(pair.b));
+    if (is_fast(world, pair.a, pair.b, motion(pair.a), motion(pair.b))) return true;
   }
   if (!(restitution > 0) || !world.plan.runs(StageKind::sweep)) return false;
   const BodyStates& s = world.states;
@@ -90,16 +102,17 @@ bool left_to_sweep(World& world, const BodyPair& pair, double restitution) {
   for (const Manifold& m : world.manifolds)
     for (int k = 0; k < m.count; ++k) {
       const ContactPoint& p = m.points[k];
-      if (p.separation <= tolerance::sweep_touch) return false;
+      if (p.separation <= tolerance::sweep_leaves) return false;
       const Eigen::Vector3d u =
           s.velocity_at(pair.b, p.position) - s.velocity_at(pair.a, p.position);
       const Eigen::Vector3d gained = s.velocity[pair.b] - world.velocity_before[pair.b] -
                                      (s.velocity[pair.a] - world.velocity_before[pair.a]);
       const double now = m.normal.dot(u), before = now - m.normal.dot(gained);
-      const bool meets = p.separation + world.dt * std::min(now, before) < 0;
+      const bool meets = p.separation + 2 * world.dt * std::min(now, before) < 0;
       bounces = bounces || (meets && -2 * restitution * before > before - now);
     }
   if (!bounces) return false;
+  apart = tolerance::sweep_leaves;
   for (const int row : {pair.a, pair.b}) w.fast[row] = s.moves[row] && w.ccd[row] != Ccd::never;
   return w.fast[pair.a] || w.fast[pair.b];
 }
@@ -119,7 +132,7 @@ void run_contacts(World& world) {
   if (wake_touched(world)) run_pairs(world);
   std::swap(world.contacts, world.contacts_before);
   world.contacts.clear();
-  world.sweep.left.clear(), world.sweep.kept.clear();
+  world.sweep.left.clear(), world.sweep.kept.clear(), world.sweep.free.clear();
   world.manifold_cache.begin_step();
   const auto placed = [&](int i) {
     const Eigen::Quaterniond q = world.states.orientation[i] * world.states.axes_b[i].conjugate();
@@ -135,12 +148,14 @@ void run_contacts(World& world) {
     const Scene::Body& b = world.scene.bodies[pair.b];
     const double friction = std::sqrt(a.friction * b.friction);
     const double restitution = std::max(a.restitution, b.restitution);
-    const bool swept = left_to_sweep(world, pair, restitution);
+    double apart = tolerance::sweep_touch;  // m: of pairs left to the sweep the solver has the rest
+    const bool swept = left_to_sweep(world, pair, restitution, apart);
     (swept ? world.sweep.left : world.sweep.kept).push_back(pair);
+    if (!swept && bounces_freely(world, restitution)) world.sweep.free.push_back(pair);
     for (const Manifold& m : world.manifolds)
       for (int k = 0; k < m.count; ++k) {
         const ContactPoint& p = m.points[k];
-        if (swept && p.separation > tolerance::sweep_touch) continue;
+        if (swept && p.separation > apart) continue;
         world.contacts.push_back(
             {.a = pair.a,
              .b = pair.b,

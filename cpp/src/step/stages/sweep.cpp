@@ -47,8 +47,10 @@ bool goes_without(const World& world, int a, int b, double t) {
   const SweepWork& w = world.sweep;
   if (is_fast(world, a, b, motion_of(world, a, t), motion_of(world, b, t))) return false;
   const BodyPair pair{a, b};
-  if (std::ranges::binary_search(w.kept, pair)) return true;
-  return w.version[a] == 0 && w.version[b] == 0 && !std::ranges::binary_search(w.left, pair);
+  const bool was_hit = w.version[a] != 0 || w.version[b] != 0;
+  if (std::ranges::binary_search(w.kept, pair))
+    return !was_hit || !std::ranges::binary_search(w.free, pair);
+  return !was_hit && !std::ranges::binary_search(w.left, pair);
 }
 
 void ask(World& world, int a, int b, double t) {
