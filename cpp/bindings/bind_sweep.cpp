@@ -44,7 +44,9 @@ void bind_sweep(py::module_& m) {
       .value("none", SweepResult::Kind::none)
       .value("vertex_face", SweepResult::Kind::vertex_face)
       .value("face_vertex", SweepResult::Kind::face_vertex)
-      .value("edge_edge", SweepResult::Kind::edge_edge);
+      .value("edge_edge", SweepResult::Kind::edge_edge)
+      .value("edge_face", SweepResult::Kind::edge_face, "at time 0: an edge is through a face")
+      .value("face_edge", SweepResult::Kind::face_edge);
 
   py::class_<SweptBody>(ccd, "SweptBody", "A body moving rigidly over one step.")
       .def(py::init(&make_body), "vertices"_a, "faces"_a = py::none(), "edges"_a = py::none(),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "carom/geometry/aabb.hpp"
+#include "carom/narrow/moving_triangle.hpp"
 #include "carom/numerics/invalid_input.hpp"
 #include "carom/numerics/rotation.hpp"
 
@@ -21,7 +22,8 @@ namespace {
 using Points = std::vector<Eigen::Vector3d>;
 
 // A position is a quaternion exponential, a rotated vector and two sums: below 32 roundings of
-// numbers no larger than |centre| + |displacement| + radius. The rest is for widened boxes.
+// numbers no larger than |centre| + |displacement| + radius; its angle is off by a few units of
+// roundoff of itself, which moves the point by that times radius. The rest is for widened boxes.
 constexpr double pose_rounding = 64 * tolerance::unit_roundoff;
 
 void require_body(const SweptBody& body, const std::string& name) {
@@ -55,8 +57,8 @@ struct Chords {
       radius = std::max(radius, angle > 0 ? p.cross(axis).norm() : 0);
       reach = std::max(reach, p.norm());
     }
-    rounding =
-        pose_rounding * (body.motion.centre.norm() + body.motion.displacement.norm() + reach);
+    rounding = pose_rounding *
+               (body.motion.centre.norm() + body.motion.displacement.norm() + reach * (1 + angle));
     start.resize(static_cast<std::size_t>(v.rows()));
     end.resize(start.size());
   }
@@ -169,6 +171,46 @@ void try_pairs(const Chords& a, const Features<N>& of_a, const Chords& b, const 
     }
 }
 
+// Where surfaces cross, an edge of one passes through a face of the other: a point that runs along
+// the edge meets the face. Corners and edges alone need not be near anything then. Exact, for the
+// poses as computed; what they round away lies within the thickness of the first interval.
+bool edge_crosses_face(const Chords& a, const Features<2>& edges, const Chords& b,
+                       const Features<3>& faces, SweepResult::Kind kind, SweepResult& found) {
+  for (std::size_t i = 0; i < edges.index.size(); ++i)
+    for (std::size_t j = 0; j < faces.index.size(); ++j) {
+      if (!edges.box[i].overlaps(faces.box[j])) continue;
+      const auto at = [&](const Chords& c, int k) { return c.start[static_cast<std::size_t>(k)]; };
+      MovingFour points;
+      points.start.col(0) = at(a, edges.corners[i][0]);
+      points.end.col(0) = at(a, edges.corners[i][1]);
+      for (int k = 0; k < 3; ++k)
+        points.start.col(k + 1) = points.end.col(k + 1) =
+            at(b, faces.corners[j][static_cast<std::size_t>(k)]);
+      ++found.queries;
+      if (!point_triangle(points).hit) continue;
+      found.status = SweepStatus::contact;
+      found.time = 0;
+      found.kind = kind;
+      found.a = edges.index[i];
+      found.b = faces.index[j];
+      return true;
+    }
+  return false;
+}
+
+bool cross_at_start(Chords& a, BodyFeatures& of_a, Chords& b, BodyFeatures& of_b,
+                    SweepResult& found) {
+  using Kind = SweepResult::Kind;
+  a.set(0, 0);
+  b.set(0, 0);
+  of_a.collect(a, 0, whole(b, 0));
+  of_b.collect(b, 0, whole(a, 0));
+  if (edge_crosses_face(a, of_a.edges, b, of_b.faces, Kind::edge_face, found)) return true;
+  if (!edge_crosses_face(b, of_b.edges, a, of_a.faces, Kind::face_edge, found)) return false;
+  std::swap(found.a, found.b);
+  return true;
+}
+
 }  // namespace
 
 Eigen::Vector3d ScrewMotion::position(const Eigen::Vector3d& p_b, double t) const {
@@ -202,6 +244,7 @@ SweepResult sweep(const SweptBody& a, const SweptBody& b, const SweepOptions& op
 
   Chords chords_a(a), chords_b(b);
   BodyFeatures near_a, near_b;
+  if (cross_at_start(chords_a, near_a, chords_b, near_b, result)) return result;
   // Chords of a large turn say nothing of the path between; start with an eighth of a turn at most.
   const double turn = std::max(a.motion.rotation.norm(), b.motion.rotation.norm());
   const double longest = std::min(1.0, tolerance::sweep_turn / std::max(turn, 1e-300));

@@ -109,6 +109,33 @@ TEST(Sweep, AFastBulletMeetsAThinPlateFace) {
   EXPECT_EQ(other.time, r.time);
 }
 
+TEST(Sweep, SurfacesThatAlreadyCrossAreInContactAtOnce) {
+  // A rod through the middle of a face: its ends and the face's edges are 0.2 m apart and more.
+  SweptBody face;
+  face.mesh.vertices.resize(3, 3);
+  face.mesh.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  face.mesh.faces.resize(1, 3);
+  face.mesh.faces << 0, 1, 2;
+  face.edges = edges_of(face.mesh.faces);
+  SweptBody rod = segment({0.3, 0.3, -1}, {0.3, 0.3, 1});
+  for (const double turn : {0.0, 2.0}) {
+    rod.motion.rotation.z() = turn;
+    const SweepResult r = sweep(rod, face), other = sweep(face, rod);
+    EXPECT_EQ(r.status, SweepStatus::contact);
+    EXPECT_EQ(r.time, 0);
+    EXPECT_EQ(r.kind, SweepResult::Kind::edge_face);
+    EXPECT_EQ(r.a, 0);
+    EXPECT_EQ(r.b, 0);
+    EXPECT_EQ(other.status, SweepStatus::contact);
+    EXPECT_EQ(other.kind, SweepResult::Kind::face_edge);
+  }
+  rod.motion.rotation.setZero();
+  rod.motion.centre.z() = 1.5;
+  EXPECT_EQ(sweep(rod, face).status, SweepStatus::separated);
+  rod.motion.displacement.z() = -1.0;
+  EXPECT_EQ(sweep(rod, face).kind, SweepResult::Kind::vertex_face) << "met on the way";
+}
+
 // |x(t) - chord(t)| <= r angle^2 / 8 for every interval, and no bound ten times smaller would hold
 TEST(Sweep, TheChordErrorBoundsTheArcAndIsTight) {
   const Vector3d p(0.7, 0, 0.4);

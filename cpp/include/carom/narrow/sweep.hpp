@@ -54,11 +54,20 @@ struct SweepResult {
   double time = 1;    ///< no contact in [0, time): a lower bound, always
   int intervals = 0;  ///< chords tried, the "work"
   int queries = 0;    ///< continuous queries spent
-  enum class Kind : std::uint8_t { none, vertex_face, face_vertex, edge_edge } kind = Kind::none;
+  enum class Kind : std::uint8_t {
+    none,
+    vertex_face,
+    face_vertex,
+    edge_edge,
+    edge_face,  ///< these two only at time 0: an edge already passes through a face
+    face_edge
+  } kind = Kind::none;
   int a = -1, b = -1;  ///< indices of the features met (vertex, face or edge of each body)
 };
 
-/// First contact of two rigidly moving surfaces, rotation included; never a miss.
+/// First contact of two rigidly moving surfaces, rotation included; never a miss. Surfaces that
+/// already pass through each other are in contact at time 0; one that lies wholly inside another is
+/// not in contact with it.
 ///
 /// The step is cut into intervals on which every vertex follows its chord, to within chord_error().
 /// The chords are asked with thickness enlarged by both bodies' errors and the rounding of poses;
