@@ -6,7 +6,6 @@ import pytest
 from carom.stress import GROUPS, cases_of, run_case
 
 KNOWN = {
-    "elastic_cube_of_216": "13 % of the energy is booked as dissipated in the first hits, e = 1",
     "house_of_two_cards": "parallel edges meet with the normal of a face, not of the pair",
     "mirror_symmetry": "0.4 m: islands are solved in the order of rows",
 }
