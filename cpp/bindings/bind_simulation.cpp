@@ -69,24 +69,27 @@ SolverChoice solver_named(const std::string& name) {
 void bind_stepping(Class& cls) {
   cls.def(py::init([](const Scene& scene, double dt, const std::string& integrator,
                       const std::string& contact_solver, int substeps, double sleep_after,
-                      bool verify) {
+                      bool verify, int threads) {
             SimulationOptions options{.dt = dt, .integrator = integrator_named(integrator)};
             options.contact.choice = solver_named(contact_solver);
             options.contact.substeps = substeps;
             options.sleep_after = sleep_after;
             options.verify = verify;
+            options.threads = threads;
             return std::make_unique<Shared>(scene, options);
           }),
           "scene"_a, "dt"_a = SimulationOptions{}.dt,
           "integrator"_a = std::string(name_of(SimulationOptions{}.integrator)), py::kw_only(),
           "contact_solver"_a = "automatic", "substeps"_a = 0,
           "sleep_after"_a = SimulationOptions{}.sleep_after, "verify"_a = false,
+          "threads"_a = SimulationOptions{}.threads,
           "scene: copied, so later changes to it do not reach the simulation; dt: s, > 0, the\n"
           "largest step taken; integrator: of rotations, one of METHODS; contact_solver:\n"
           "'automatic', 'small_steps' or 'direct'; substeps: of the small steps, 0 for as many as\n"
           "the loads ask for; sleep_after: s at rest until an island costs nothing, inf for\n"
           "never; verify: look at the ways of every step again with exact predicates, see\n"
-          "report.sweep.crossings; slow.")
+          "report.sweep.crossings; slow; threads: 1 to 1024 share the contact solver's work, with\n"
+          "the same bits whatever their number.")
       .def(
           "step",
           [](Shared& self, std::optional<double> dt) {

@@ -27,7 +27,7 @@ struct alignas(32) BulkFrame {
 /// Changes of velocity, linear and angular, each with an unused fourth.
 struct alignas(64) BulkKick {
   double kick[8];   ///< of the forces in one small step
-  double push[8];   ///< of the contacts in the last one: what they start the next with
+  double push[8];   ///< of the contacts as they pressed last: what they start the next one with
   double start[8];  ///< velocities as the small step began
 };
 
@@ -37,7 +37,8 @@ struct BulkPoint {
   Wide answer_a[3], answer_b[3];  ///< I^-1 (r x n)
   Wide mass;                      ///< kg, of the point along the normal; 0 in an empty lane
   Wide separation;                ///< m at the start of the step
-  Wide impulse;                   ///< N s of the substep under way
+  Wide impulse;                   ///< N s of the small step, pressing: what moves the bodies
+  Wide relaxed;                   ///< N s of the small step, without push: what their speeds keep
   Wide total;                     ///< N s since the step began
   Wide spread;                    ///< m from the patch's centre, in the tangent plane
 };
@@ -52,11 +53,12 @@ struct BulkRow {
   Wide arm_a[3], arm_b[3];          ///< m, from the centres of mass to the patch's centre
   Wide inertia_a[6], inertia_b[6];  ///< inverse, xx yy zz xy xz yz
   Wide friction;
-  Wide against_static;  ///< 1 or 0
-  Wide tangent_step;    ///< kg, 1 / largest eigenvalue of the tangent mobility
-  Wide twist_mass;      ///< kg m^2; 0 for single points
-  Wide slip[3];         ///< N s of the substep, tangential
-  Wide twist;           ///< N m s of the substep, about the normal
+  Wide against_static;                  ///< 1 or 0
+  Wide tangent_step;                    ///< kg, 1 / largest eigenvalue of the tangent mobility
+  Wide twist_mass;                      ///< kg m^2; 0 for single points
+  Wide slip[3];                         ///< N s of the small step, tangential, pressing
+  Wide twist;                           ///< N m s of the small step, about the normal, pressing
+  Wide slip_relaxed[3], twist_relaxed;  ///< without push
   Wide slip_total[3], twist_total;
 };
 
@@ -71,13 +73,15 @@ struct BulkBall {
   Wide friction;
   Wide against_static;
   Wide mass, tangent_step;  ///< kg
-  Wide separation, impulse, total;
-  Wide slip[3], slip_total[3];
+  Wide separation, impulse, relaxed, total;
+  Wide slip[3], slip_relaxed[3], slip_total[3];
 };
 
-/// Rows of one colour: no two of their lanes share a moving body.
+/// Rows of one colour: no two of their lanes share a moving body, but in the last colour, which
+/// takes what is left over.
 struct BulkColour {
-  int rows_end, balls_end;
+  int rows_begin, rows_end, balls_begin, balls_end;
+  bool left_over;
 };
 
 /// Where contacts keep what the kernel reads and writes, as places within an array of doubles.
@@ -105,18 +109,26 @@ struct BulkBatch {
   double substeps;
   double h, inverse_h;  ///< s, 1/s
   double push_speed;    ///< m/s, most an overlap may add
+  double one_place;     ///< points nearer than this, over their lever, are one
 };
 
+/// The index-th of `count` nearly equal shares.
+struct BulkPart {
+  int index = 0, count = 1;
+};
+
+/// Each does its share of the bodies, of the rows, or of the rows of one colour: threads may work
+/// on one of these at a time, and it makes no difference which does what.
 struct BulkKernels {
-  void (*prepare)(const BulkBatch&, const BulkContacts&);
-  void (*warm_start)(const BulkBatch&);  ///< the contacts' first push
-  void (*begin)(const BulkBatch&);       ///< forces, and the push of the small step before
-  void (*press)(const BulkBatch&);       ///< friction, then soft normals
-  void (*move)(const BulkBatch&, double h);
-  void (*relax)(const BulkBatch&);  ///< friction, then normals without push
-  void (*end)(const BulkBatch&);
-  double (*residual)(const BulkBatch&);                  ///< m/s, natural map of Coulomb's law
-  void (*write)(const BulkBatch&, const BulkContacts&);  ///< impulses to the contacts
+  void (*prepare)(const BulkBatch&, const BulkContacts&, BulkPart);
+  void (*warm_start)(const BulkBatch&, const BulkColour&, BulkPart);  ///< the contacts' first push
+  void (*begin)(const BulkBatch&, BulkPart);  ///< forces, and the push of the small step before
+  void (*press)(const BulkBatch&, const BulkColour&, BulkPart);  ///< friction, then soft normals
+  void (*move)(const BulkBatch&, double h,
+               BulkPart);  ///< by the speeds as pressed: it remembers them
+  void (*relax)(const BulkBatch&, const BulkColour&, BulkPart);  ///< friction, normals without push
+  double (*residual)(const BulkBatch&, BulkPart);  ///< m/s, natural map of Coulomb's law
+  void (*write)(const BulkBatch&, const BulkContacts&, BulkPart);  ///< impulses to the contacts
 };
 
 /// The widest kernels this CPU runs.

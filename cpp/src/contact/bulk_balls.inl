@@ -27,8 +27,8 @@ inline void warm_start_ball(const BulkBatch& batch, const BulkBall& row) {
   Speeds a = gather_speeds(batch.bodies, row.a), b = gather_speeds(batch.bodies, row.b);
   const V3 n = load(row.normal);
   push_ball(a, b, row, n, add_times(load(row.slip), load(row.impulse), n));
-  scatter_speeds(batch.bodies, row.a, a);
-  scatter_speeds(batch.bodies, row.b, b);
+  scatter_speeds(batch, row.a, a);
+  scatter_speeds(batch, row.b, b);
 }
 
 template <bool pressing>
@@ -45,22 +45,25 @@ inline void sweep_ball(const BulkBatch& batch, BulkBall& row) {
   const V after = pressed(pressing, s, u, before, load(row.mass), soft, splat(batch.inverse_h),
                           splat(-batch.push_speed));
   push_ball(a, b, row, n, add_times(difference(slip_after, slip), after - before, n));
-  store(row.slip, slip_after);
-  store(row.impulse, after);
-  if constexpr (!pressing) {
+  if constexpr (pressing) {
+    store(row.slip, slip_after);
+    store(row.impulse, after);
+  } else {
+    store(row.slip_relaxed, slip_after);
+    store(row.relaxed, after);
     store(row.total, load(row.total) + after);
     store(row.slip_total, sum(load(row.slip_total), slip_after));
   }
-  scatter_speeds(batch.bodies, row.a, a);
-  scatter_speeds(batch.bodies, row.b, b);
+  scatter_speeds(batch, row.a, a);
+  scatter_speeds(batch, row.b, b);
 }
 
 inline V unmet_ball(const BulkBatch& batch, const BulkBall& row) {
   const Speeds a = gather_speeds(batch.bodies, row.a), b = gather_speeds(batch.bodies, row.b);
   const V3 n = load(row.normal);
-  const V impulse = load(row.impulse);
+  const V impulse = load(row.relaxed);
   const V normal = unmet_normal(gap(batch, row, n), dot(n, difference(b.v, a.v)), impulse,
                                 load(row.mass), splat(batch.inverse_h));
-  return maximum(normal, unmet_slip(load(row.slip), slip_speed(a, b, row, n),
+  return maximum(normal, unmet_slip(load(row.slip_relaxed), slip_speed(a, b, row, n),
                                     load(row.tangent_step), impulse * load(row.friction)));
 }

@@ -86,14 +86,17 @@ inline void warm_start_row(const BulkBatch& batch, const BulkRow& row) {
     push_normal(a, b, n, p, load(p.impulse));
   }
   push_tangent(a, b, row, n, load(row.slip), load(row.twist));
-  scatter_speeds(batch.bodies, row.a, a);
-  scatter_speeds(batch.bodies, row.b, b);
+  scatter_speeds(batch, row.a, a);
+  scatter_speeds(batch, row.b, b);
 }
 
-/// Friction of a patch. Pressing without it would let bodies slide on what presses them, and a heap
-/// would never be still; the impulse counts where the small step ends.
+/// Friction of a patch. Pressing without it would let bodies slide on what presses them. Pressing
+/// starts from what it ended with, never from the relaxed impulse: so its friction is the sum of
+/// all slip that moved the bodies, a spring that holds them in place. Started from the relaxed one,
+/// every small step slips a little and forgets it, and a heap creeps for ever.
+template <bool pressing>
 [[gnu::always_inline]] inline void rub(const BulkBatch& batch, BulkRow& row, const V3& n, Speeds& a,
-                                       Speeds& b, bool count) {
+                                       Speeds& b) {
   V bound = splat(0), twist_bound = splat(0);
   for (int k = 0; k < row.count; ++k) {
     const BulkPoint& p = batch.points[row.first + k];
@@ -114,10 +117,15 @@ inline void warm_start_row(const BulkBatch& batch, const BulkRow& row) {
   const V3 after =
       within(add_times(before, -load(row.tangent_step), slip_speed(a, b, row, n)), bound);
   push_tangent(a, b, row, n, difference(after, before), splat(0));
-  store(row.slip, after);
-  store(row.twist, twist);
-  if (count) store(row.slip_total, sum(load(row.slip_total), after));
-  if (count) store(row.twist_total, load(row.twist_total) + twist);
+  if constexpr (pressing) {
+    store(row.slip, after);
+    store(row.twist, twist);
+  } else {
+    store(row.slip_relaxed, after);
+    store(row.twist_relaxed, twist);
+    store(row.slip_total, sum(load(row.slip_total), after));
+    store(row.twist_total, load(row.twist_total) + twist);
+  }
 }
 
 template <bool pressing>
@@ -126,19 +134,23 @@ inline void sweep_row(const BulkBatch& batch, BulkRow& row) {
   Speeds a = gather_speeds(batch.bodies, row.a), b = gather_speeds(batch.bodies, row.b);
   const V3 n = load(row.normal);
   const Motion motion(batch, row, n);
-  rub(batch, row, n, a, b, !pressing);
+  rub<pressing>(batch, row, n, a, b);
   const Soft soft = softness_of(batch.soft, row.against_static);
   for (int k = 0; k < row.count; ++k) {
     BulkPoint& p = batch.points[row.first + k];
     const V before = load(p.impulse);
     const V after = pressed(pressing, motion.gap(p), normal_speed(a, b, n, p), before, load(p.mass),
                             soft, inverse_h, push_speed);
-    store(p.impulse, after);
-    if constexpr (!pressing) store(p.total, load(p.total) + after);
+    if constexpr (pressing) {
+      store(p.impulse, after);
+    } else {
+      store(p.relaxed, after);
+      store(p.total, load(p.total) + after);
+    }
     push_normal(a, b, n, p, after - before);
   }
-  scatter_speeds(batch.bodies, row.a, a);
-  scatter_speeds(batch.bodies, row.b, b);
+  scatter_speeds(batch, row.a, a);
+  scatter_speeds(batch, row.b, b);
 }
 
 /// How far an impulse is from what its law asks for at the speed it meets, m/s; 0 without a mass.
@@ -161,11 +173,11 @@ inline V unmet_row(const BulkBatch& batch, const BulkRow& row) {
   V worst = splat(0), bound = splat(0);
   for (int k = 0; k < row.count; ++k) {
     const BulkPoint& p = batch.points[row.first + k];
-    const V impulse = load(p.impulse);
+    const V impulse = load(p.relaxed);
     worst = maximum(worst, unmet_normal(motion.gap(p), normal_speed(a, b, n, p), impulse,
                                         load(p.mass), inverse_h));
     bound += impulse;
   }
-  return maximum(worst, unmet_slip(load(row.slip), slip_speed(a, b, row, n), load(row.tangent_step),
-                                   bound * load(row.friction)));
+  return maximum(worst, unmet_slip(load(row.slip_relaxed), slip_speed(a, b, row, n),
+                                   load(row.tangent_step), bound * load(row.friction)));
 }

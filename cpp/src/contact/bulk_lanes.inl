@@ -102,13 +102,13 @@ inline void gather(BulkBody* bodies, const int (&index)[4], int which, V3& out, 
   fourth = d;
 }
 
-inline void scatter(BulkBody* bodies, const int (&index)[4], int which, const V3& v, V fourth) {
+inline void scatter(BulkBody* const (&to)[4], int which, const V3& v, V fourth) {
   V a = v.x, b = v.y, c = v.z, d = fourth;
   transpose(a, b, c, d);
-  *quad(bodies, index[0], which) = a;
-  *quad(bodies, index[1], which) = b;
-  *quad(bodies, index[2], which) = c;
-  *quad(bodies, index[3], which) = d;
+  *quad(to[0], 0, which) = a;
+  *quad(to[1], 0, which) = b;
+  *quad(to[2], 0, which) = c;
+  *quad(to[3], 0, which) = d;
 }
 
 inline Speeds gather_speeds(BulkBody* bodies, const int (&index)[4]) {
@@ -118,9 +118,13 @@ inline Speeds gather_speeds(BulkBody* bodies, const int (&index)[4]) {
   return s;
 }
 
-inline void scatter_speeds(BulkBody* bodies, const int (&index)[4], const Speeds& s) {
-  scatter(bodies, index, 0, s.v, s.inverse_mass);
-  scatter(bodies, index, 1, s.w, s.unused);
+/// What stands still is not written: all rows on the ground share it, on all threads.
+inline void scatter_speeds(const BulkBatch& batch, const int (&index)[4], const Speeds& s) {
+  BulkBody still;
+  BulkBody* to[4];
+  for (int l = 0; l < 4; ++l) to[l] = index[l] < batch.moving ? batch.bodies + index[l] : &still;
+  scatter(to, 0, s.v, s.inverse_mass);
+  scatter(to, 1, s.w, s.unused);
 }
 
 /// 1 in lanes that have a k-th point.

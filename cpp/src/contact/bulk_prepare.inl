@@ -197,10 +197,13 @@ inline void write_patch(const BulkBatch& batch, const BulkContacts& contacts, co
   }
   const V per_load = inverse_or_zero(total);
   offset = times(per_load, offset);
+  // Where one point carries all, its distance from the centre of the loads is rounding, and a twist
+  // over it would be a friction force of any direction.
+  const V nearest = splat(batch.one_place * batch.one_place) * dot(arm, arm);
   for (int k = 0; k < row.count; ++k) {
     const BulkPoint& p = batch.points[row.first + k];
     const V3 off = difference(lever(p, n, centre), offset);
-    const V square = dot(off, off);
+    const V distance = dot(off, off), square = distance > nearest ? distance : zero;
     moment = multiply_add(scale * load(p.*impulse), square, moment);
     reach = multiply_add(scale * load(p.*impulse), square_root(square), reach);
   }

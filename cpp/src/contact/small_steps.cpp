@@ -163,6 +163,8 @@ void SmallSteps::lay_rows(const BodyStates& states, const BodyFrames& frames,
     }
   };
   for (int c = 0; c <= colour_count; ++c) {
+    const int row_before = static_cast<int>(rows_.size());
+    const int ball_before = static_cast<int>(balls_.size());
     // Patches of one size share rows, so that few lanes run empty.
     for (auto& list : by_size_) list.clear();
     for (const int i : colours_[c]) {
@@ -190,7 +192,9 @@ void SmallSteps::lay_rows(const BodyStates& states, const BodyFrames& frames,
       }
       points += row.count;
     }
-    stripes_.push_back({static_cast<int>(rows_.size()), static_cast<int>(balls_.size())});
+    const int rows = static_cast<int>(rows_.size()), balls = static_cast<int>(balls_.size());
+    if (rows > row_before || balls > ball_before)
+      stripes_.push_back({row_before, rows, ball_before, balls, c == colour_count});
   }
   points_.resize(points);
 }
@@ -229,12 +233,6 @@ void SmallSteps::resist_turning() {
     t.impulse = roll + spin * t.normal;
     const Eigen::Vector3d da = t.inverse_a * t.impulse, db = t.inverse_b * t.impulse;
     wa -= da, wb += db;
-    // Not a push to start the next small step with: as if it had been there before this one.
-    const std::size_t moving = kicks_.size();
-    for (int k = 0; k < 3; ++k) {
-      if (row.a[t.lane] < static_cast<int>(moving)) kicks_[row.a[t.lane]].start[4 + k] -= da[k];
-      if (row.b[t.lane] < static_cast<int>(moving)) kicks_[row.b[t.lane]].start[4 + k] += db[k];
-    }
     t.total += t.impulse;
   }
 }
@@ -245,16 +243,24 @@ void SmallSteps::write_turns(std::span<Contact> contacts) {
       contacts[t.first_contact + k].turning_impulse = t.total / t.count;
 }
 
-void SmallSteps::take_small_step(const BulkBatch& batch, double h) {
+void SmallSteps::take_small_step(const BulkBatch& batch, double h, bool first, BulkPart part,
+                                 Workers* workers) {
   const BulkKernels& kernels = bulk_kernels();
-  kernels.begin(batch);
-  if (!pushed_) kernels.warm_start(batch);
-  pushed_ = true;
-  kernels.press(batch);
-  kernels.move(batch, h);
-  resist_turning();
-  kernels.relax(batch);
-  kernels.end(batch);
+  const auto meet = [&] {
+    if (workers != nullptr) workers->meet();
+  };
+  const auto sweep = [&](auto kernel) {
+    for (const BulkColour& colour : stripes_) kernel(batch, colour, part), meet();
+  };
+  kernels.begin(batch, part), meet();
+  if (first) sweep(kernels.warm_start);
+  sweep(kernels.press);
+  kernels.move(batch, h, part), meet();
+  if (!turns_.empty()) {
+    if (part.index == 0) resist_turning();
+    meet();
+  }
+  sweep(kernels.relax);
 }
 
 bool SmallSteps::just_placed(const BodyFrames& frames, std::span<const Contact> contacts) const {
@@ -267,11 +273,26 @@ bool SmallSteps::just_placed(const BodyFrames& frames, std::span<const Contact> 
 }
 
 // A scene set up at rest starts without impulses. Small steps that go nowhere find them first, or
-// the heap would sag unevenly while they build up.
+// the heap would sag unevenly while they build up. Without push: a soft contact that does not sink
+// bears too little.
 void SmallSteps::find_loads(const BulkBatch& batch, int substeps) {
+  const BulkKernels& kernels = bulk_kernels();
   start_.assign(bodies_.begin(), bodies_.end());
   for (int k = 0; k < load_rounds * substeps; ++k) {
-    take_small_step(batch, 0);
+    kernels.begin(batch, {});
+    if (k == 0)
+      for (const BulkColour& colour : stripes_) kernels.warm_start(batch, colour, {});
+    for (const BulkColour& colour : stripes_) kernels.relax(batch, colour, {});
+    for (BulkPoint& p : points_) p.impulse = p.relaxed;
+    for (BulkRow& row : rows_) {
+      std::ranges::copy(row.slip_relaxed, row.slip);
+      row.twist = row.twist_relaxed;
+    }
+    for (BulkBall& row : balls_) {
+      std::ranges::copy(row.slip_relaxed, row.slip);
+      row.impulse = row.relaxed;
+    }
+    kernels.move(batch, 0, {});
     std::copy(start_.begin(), start_.end(), bodies_.begin());
   }
   for (BulkPoint& p : points_) p.total = Wide{};
@@ -287,7 +308,8 @@ void SmallSteps::find_loads(const BulkBatch& batch, int substeps) {
 }
 
 double SmallSteps::solve(BodyStates& states, const BodyFrames& frames, std::span<Contact> contacts,
-                         ContactMotion& motion, double dt, int substeps, double& dissipated) {
+                         ContactMotion& motion, double dt, int substeps, double& dissipated,
+                         Workers* workers) {
   colour(states);
   place_bodies(states, frames, substeps);
   lay_rows(states, frames, contacts);
@@ -308,21 +330,36 @@ double SmallSteps::solve(BodyStates& states, const BodyFrames& frames, std::span
                         .substeps = static_cast<double>(substeps),
                         .h = h,
                         .inverse_h = 1 / h,
-                        .push_speed = tolerance::push_speed};
+                        .push_speed = tolerance::push_speed,
+                        .one_place = tolerance::one_place};
   const BulkContacts places = as_doubles(contacts);
-  kernels.prepare(batch, places);
-  pushed_ = false;
-  if (just_placed(frames, contacts)) find_loads(batch, substeps);
-  for (int k = 0; k < substeps; ++k) take_small_step(batch, h);
-  const double residual = kernels.residual(batch);
-  kernels.write(batch, places);
+  share(workers, [&](Part part) { kernels.prepare(batch, places, {part.index, part.count}); });
+  const bool placed = just_placed(frames, contacts);
+  if (placed) find_loads(batch, substeps);
+  residual_.assign(workers != nullptr ? workers->count() : 1, 0);
+  share(workers, [&](Part thread) {
+    const BulkPart part{thread.index, thread.count};
+    for (int k = 0; k < substeps; ++k) take_small_step(batch, h, k == 0 && !placed, part, workers);
+    residual_[part.index] = kernels.residual(batch, part);
+    kernels.write(batch, places, part);
+  });
   write_turns(contacts);
+  mark_felt(contacts);
+  dissipated += take_back(states, frames, motion, dt, substeps);
+  return std::ranges::max(residual_);
+}
 
-  // What no contact pushed falls as if it were alone, not in small steps of first order.
+// What no contact pushed falls as if it were alone, not in small steps of first order.
+void SmallSteps::mark_felt(std::span<const Contact> contacts) {
   felt_.assign(bodies_.size(), 0);
   for (const Patch& p : patches_)
     for (int k = p.first; k < p.first + p.count; ++k)
       if (!contacts[k].impulse.isZero(0)) felt_[slot_[p.a]] = felt_[slot_[p.b]] = 1;
+}
+
+double SmallSteps::take_back(BodyStates& states, const BodyFrames& frames, ContactMotion& motion,
+                             double dt, int substeps) const {
+  double dissipated = 0;
   const std::size_t moving = body_rows_.size();
   for (std::size_t i = 0; i < moving; ++i) {
     const int row = body_rows_[i];
@@ -345,7 +382,7 @@ double SmallSteps::solve(BodyStates& states, const BodyFrames& frames, std::span
     motion.displacement.set(row, Eigen::Vector3d(body.displacement));
     motion.turn.set(row, Eigen::Vector3d(body.turn) - dt * w);
   }
-  return residual;
+  return dissipated;
 }
 
 }  // namespace carom::contact

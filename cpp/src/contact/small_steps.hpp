@@ -8,6 +8,7 @@
 #include "contact/bulk.hpp"
 #include "contact/islands.hpp"
 #include "contact/scratch.hpp"
+#include "numerics/workers.hpp"
 
 namespace carom::contact {
 
@@ -31,7 +32,8 @@ class SmallSteps {
   /// Solves what was added; writes impulses to the contacts, new velocities to the states and the
   /// way travelled to `motion`. Returns the residual, m/s, and adds to `dissipated`, J.
   double solve(BodyStates& states, const BodyFrames& frames, std::span<Contact> contacts,
-               ContactMotion& motion, double dt, int substeps, double& dissipated);
+               ContactMotion& motion, double dt, int substeps, double& dissipated,
+               Workers* workers);
 
  private:
   void colour(const BodyStates& states);
@@ -42,7 +44,11 @@ class SmallSteps {
                            std::span<const Contact> contacts);
   void lay_rows(const BodyStates& states, const BodyFrames& frames,
                 std::span<const Contact> contacts);
-  void take_small_step(const BulkBatch& batch, double h);
+  void take_small_step(const BulkBatch& batch, double h, bool first, BulkPart part,
+                       Workers* workers);
+  void mark_felt(std::span<const Contact> contacts);
+  [[nodiscard]] double take_back(BodyStates& states, const BodyFrames& frames,
+                                 ContactMotion& motion, double dt, int substeps) const;
   [[nodiscard]] bool just_placed(const BodyFrames& frames, std::span<const Contact> contacts) const;
   void find_loads(const BulkBatch& batch, int substeps);
   void add_turn(int row, int lane, const Patch& patch, const BodyFrames& frames,
@@ -77,7 +83,7 @@ class SmallSteps {
   std::vector<Turn> turns_;
   std::vector<BulkBody> start_;
   std::vector<std::uint8_t> felt_;  // by slot: a contact pushed it in this step
-  bool pushed_ = false;             // whether the kicks know what the contacts start with
+  std::vector<double> residual_;    // of each thread
 };
 
 }  // namespace carom::contact

@@ -2,6 +2,7 @@
 #include "carom/contact/solver.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "carom/numerics/tolerance.hpp"
@@ -12,6 +13,7 @@
 #include "contact/islands.hpp"
 #include "contact/scratch.hpp"
 #include "contact/small_steps.hpp"
+#include "numerics/workers.hpp"
 
 namespace carom {
 namespace {
@@ -42,10 +44,23 @@ void SolverMemory::erase(int i) {
   island.erase(island.begin() + i);
 }
 
+namespace {
+
+/// What becomes of an island.
+struct Turn {
+  contact::Choice choice;
+  contact::DirectResult result;
+  double dissipated = 0;  // J, by the direct solver
+};
+
+}  // namespace
+
 struct ContactSolver::Workspace {
   contact::Islands islands;
   contact::BodyFrames frames;
-  contact::DirectIsland direct;
+  std::vector<contact::DirectIsland> direct;  // one a thread
+  std::vector<Turn> turns;                    // by island
+  std::vector<int> direct_islands;
   contact::Impacts impacts;
   contact::SmallSteps small_steps;
   std::vector<std::pair<int, int>> later;  // substeps and island of what is not solved directly
@@ -71,7 +86,7 @@ const ContactMotion& ContactSolver::motion() const {
 SolveOutcome ContactSolver::solve(BodyStates& states, const Array3& velocity_before,
                                   const Array3& angular_momentum_before,
                                   std::span<Contact> contacts, double dt,
-                                  const SolverOptions& options) {
+                                  const SolverOptions& options, Workers* workers) {
   Workspace& w = *workspace_;
   const int n = states.size();
   memory.resize(n);
@@ -91,23 +106,46 @@ SolveOutcome ContactSolver::solve(BodyStates& states, const Array3& velocity_bef
   out.islands = static_cast<int>(w.islands.islands.size());
   out.dissipated += w.impacts.resolve(states, w.frames, w.islands, contacts, dt);
 
-  w.later.clear();
+  w.later.clear(), w.direct_islands.clear();
+  w.turns.assign(out.islands, {});
   double easy_left = easy_budget;
   for (int k = 0; k < out.islands; ++k) {
+    w.turns[k].choice = contact::choose(w.islands, w.islands.islands[k], states, w.frames, contacts,
+                                        dt, options, memory, easy_left);
+    if (w.turns[k].choice.direct) w.direct_islands.push_back(k);
+  }
+  // Islands share no moving body: whoever is free takes the next.
+  w.direct.resize(std::max<std::size_t>(w.direct.size(), workers ? workers->count() : 1));
+  const auto solve_directly = [&](int k, contact::DirectIsland& direct) {
+    Turn& turn = w.turns[k];
+    turn.result =
+        direct.solve(states, w.frames, w.islands, w.islands.islands[k], contacts, w.motion, dt,
+                     options.tolerance, turn.choice.newton_cap, turn.dissipated);
+  };
+  if (workers == nullptr || w.direct_islands.size() < 2) {
+    for (const int k : w.direct_islands) solve_directly(k, w.direct[0]);
+  } else {
+    std::atomic<std::size_t> next = 0;
+    auto take = [&](Part part) {
+      for (;;) {
+        const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
+        if (i >= w.direct_islands.size()) return;
+        solve_directly(w.direct_islands[i], w.direct[part.index]);
+      }
+    };
+    workers->run(take);
+  }
+
+  for (int k = 0; k < out.islands; ++k) {
     const contact::Island& island = w.islands.islands[k];
-    contact::Choice choice = contact::choose(w.islands, island, states, w.frames, contacts, dt,
-                                             options, memory, easy_left);
-    bool solved = false;
-    int newton = 0;
+    contact::Choice choice = w.turns[k].choice;
+    const int newton = w.turns[k].result.newton;
+    const bool solved = choice.direct && w.turns[k].result.converged;
     if (choice.direct) {
-      const contact::DirectResult result =
-          w.direct.solve(states, w.frames, w.islands, island, contacts, w.motion, dt,
-                         options.tolerance, choice.newton_cap, out.dissipated);
-      newton = result.newton;
-      solved = result.converged;
+      out.dissipated += w.turns[k].dissipated;
       out.iterations += newton;
       if (solved) {
-        out.residual = std::max(out.residual, result.residual);
+        out.residual = std::max(out.residual, w.turns[k].result.residual);
         out.direct_bodies += island.bodies;
         ++out.direct_islands;
       } else {
@@ -148,8 +186,9 @@ SolveOutcome ContactSolver::solve(BodyStates& states, const Array3& velocity_bef
       w.small_steps.add(w.islands, w.islands.islands[w.later[i].second]);
       ++out.small_step_islands;
     }
-    out.residual = std::max(out.residual, w.small_steps.solve(states, w.frames, contacts, w.motion,
-                                                              dt, substeps, out.dissipated));
+    out.residual =
+        std::max(out.residual, w.small_steps.solve(states, w.frames, contacts, w.motion, dt,
+                                                   substeps, out.dissipated, workers));
     out.iterations += substeps;
   }
   w.impacts.add_to(contacts);

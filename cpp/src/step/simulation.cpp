@@ -17,6 +17,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int most_threads = 1024;  // more is a slip of the keyboard
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -131,6 +133,9 @@ Report difference(const Report& now, const Report& then) {
 
 Simulation::Simulation(Scene scene, SimulationOptions options) : world_(std::make_unique<World>()) {
   require_positive(options.dt, "dt", "s");
+  if (options.threads < 1 || options.threads > most_threads)
+    throw InvalidInput("threads", std::to_string(options.threads), "must be 1 to 1024",
+                       "as many as the machine has cores, or 1");
   for (std::size_t i = 0; i < scene.effects.size(); ++i) {
     const std::string field = "effects[" + std::to_string(i) + "]";
     require_valid(scene.effects[i], field);
@@ -143,6 +148,7 @@ Simulation::Simulation(Scene scene, SimulationOptions options) : world_(std::mak
                              body.angular_velocity);
   world_->scene = std::move(scene);
   world_->options = options;
+  if (options.threads > 1) world_->workers = std::make_unique<Workers>(options.threads);
   refresh_plan(*world_);
 }
 Simulation::~Simulation() = default;

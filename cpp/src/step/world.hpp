@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "carom/step/simulation.hpp"
 
 #include "contact/manifold_cache.hpp"
+#include "numerics/workers.hpp"
 #include "step/pair_filter.hpp"
 #include "step/sweep.hpp"
 
@@ -63,6 +65,7 @@ struct Push {
 struct World {
   Scene scene;
   SimulationOptions options;
+  std::unique_ptr<Workers> workers;  ///< none on one thread
   BodyStates states;
   Plan plan;
   bool plan_is_stale = true;

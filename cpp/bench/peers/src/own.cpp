@@ -36,6 +36,7 @@ struct Own : Engine {
   void begin(const WorldDef& def) override {
     world = def;
     options.dt = def.dt;
+    options.threads = def.threads;
     if (const auto i = def.opt.find("method"); i != def.opt.end())
       options.integrator = carom::integrator_named(i->second);
     if (const auto i = def.opt.find("substeps"); i != def.opt.end())

@@ -1597,6 +1597,7 @@ class Simulation:
         substeps: typing.SupportsInt | typing.SupportsIndex = 0,
         sleep_after: typing.SupportsFloat | typing.SupportsIndex = ...,
         verify: bool = False,
+        threads: typing.SupportsInt | typing.SupportsIndex = 1,
     ) -> None:
         """
         scene: copied, so later changes to it do not reach the simulation; dt: s, > 0, the
@@ -1604,7 +1605,8 @@ class Simulation:
         'automatic', 'small_steps' or 'direct'; substeps: of the small steps, 0 for as many as
         the loads ask for; sleep_after: s at rest until an island costs nothing, inf for
         never; verify: look at the ways of every step again with exact predicates, see
-        report.sweep.crossings; slow.
+        report.sweep.crossings; slow; threads: 1 to 1024 share the contact solver's work, with
+        the same bits whatever their number.
         """
     def __len__(self) -> int: ...
     def __repr__(self) -> str: ...

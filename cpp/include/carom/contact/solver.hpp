@@ -12,6 +12,8 @@
 
 namespace carom {
 
+class Workers;  // threads that share the work of a step; numerics/workers.hpp
+
 enum class SolverChoice : std::uint8_t {
   automatic,  ///< per island, by the sink it would have under the small-step solver
   small_steps,
@@ -71,10 +73,10 @@ class ContactSolver {
   ContactSolver& operator=(ContactSolver&&) noexcept;
 
   /// Changes velocity and angular momentum of `states`, which hold the forces of the step already;
-  /// the two arrays hold them without. Contacts ascend by (a, b).
+  /// the two arrays hold them without. Contacts ascend by (a, b). Same bits with any `workers`.
   SolveOutcome solve(BodyStates& states, const Array3& velocity_before,
                      const Array3& angular_momentum_before, std::span<Contact> contacts, double dt,
-                     const SolverOptions& options = {});
+                     const SolverOptions& options = {}, Workers* workers = nullptr);
 
   [[nodiscard]] const ContactMotion& motion() const;  ///< of the last solve
   SolverMemory memory;

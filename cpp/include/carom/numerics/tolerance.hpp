@@ -152,6 +152,11 @@ inline constexpr double soft_sink = 4e-4;
 /// spawned inside another leaves at a walking pace instead of flying off.
 inline constexpr double push_speed = 3.0;
 
+/// Points of a patch nearer to the centre of its loads than this, over their distance from the
+/// body's centre, lie in it and bear no twist: places are known to u of coordinates that may be 1e6
+/// times that distance, and a twist over less is beyond any use.
+inline constexpr double one_place = 1e-9;
+
 /// Share of an overlap that one step of the direct solver takes out. Choice: 0.2 halves it in three
 /// steps, and five points of one face that are all pushed as if alone still do not overshoot.
 inline constexpr double push_share = 0.2;

@@ -28,6 +28,9 @@ struct SimulationOptions {
   /// After each step looks at all ways again with the exact predicates of moving corners and edges:
   /// no core of a body has passed through a surface. Slow; the report counts what it finds.
   bool verify = false;
+  /// 1 to 1024 threads share the contact solver's work; the same bits with any number. A step
+  /// without many contacts is no faster by it.
+  int threads = 1;
   double sleep_speed = 0.01;  ///< m/s, of the fastest point; 1 cm/s is what eyes take for rest
 };
 

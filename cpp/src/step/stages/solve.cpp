@@ -8,7 +8,7 @@ namespace carom {
 void run_solve(World& world) {
   const SolveOutcome outcome =
       world.solver.solve(world.states, world.velocity_before, world.angular_momentum_before,
-                         world.contacts, world.dt, world.options.contact);
+                         world.contacts, world.dt, world.options.contact, world.workers.get());
   ContactReport& report = world.report.contact;
   report.points = static_cast<std::int64_t>(world.contacts.size());
   report.residual = std::max(report.residual, outcome.residual);
