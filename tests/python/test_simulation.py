@@ -243,3 +243,19 @@ def test_a_reader_in_another_thread_sees_whole_steps():
         assert simulation.poses()[0, 0] in (0.0, 8.0)  # powers of two: no rounding on the way
     thread.join()
     assert simulation.poses()[0, 0] == 8.0
+
+
+def test_threads_of_the_solver_change_no_bit():
+    def hash_after(threads):
+        scene = falling_box()
+        for i in range(40):
+            place = [0.15 * (i % 4), 0.15 * (i // 4 % 3), 0.3 + 0.25 * (i // 12)]
+            scene.add(carom.Box([0.2, 0.2, 0.2]), name=f"box_{i}", position=place)
+        simulation = carom.Simulation(scene, threads=threads, contact_solver="small_steps")
+        for _ in range(10):
+            simulation.step()
+        return simulation.state_hash()
+
+    assert hash_after(2) == hash_after(1)
+    with pytest.raises(ValueError, match="threads"):
+        carom.Simulation(falling_box(), threads=0)
