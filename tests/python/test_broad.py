@@ -156,6 +156,28 @@ def test_box_tree_pairs_are_those_of_all_pairs_and_statics_rest():
     assert 0 in tree.crossed([0, 0, 5], [0, 0, 0])
 
 
+def test_the_study_counts_the_build_where_it_names_the_winner():
+    from carom.studies import trees
+
+    def row(method, build, rate, cell=None):
+        return {
+            "case": "even",
+            "query": "short",
+            "method": method,
+            "cell_size": cell,
+            "build_s": build,
+            "queries_per_s": rate,
+        }
+
+    rows = [row("bvh box low", 2.0, 1e3), row("grid automatic", 1.0, 500.0, 0.1)]
+    rows += [{**r, "query": q} for r in rows for q in trees.QUERIES[1:]]
+    # Grid: 1 s + n / 500; tree: 2 s + n / 1000: equal at n = 1000, which is not sooner.
+    wins = trees.grid_wins(rows)[0]
+    assert not wins["grid_wins"]
+    assert wins["ratio"] == 0.5
+    assert wins["sooner_up_to"] == 100
+
+
 def test_the_study_shows_every_method_right_and_the_trade_off(tmp_path):
     from carom.studies import trees
 
@@ -168,6 +190,7 @@ def test_the_study_shows_every_method_right_and_the_trade_off(tmp_path):
     memory = [r["memory_bytes"] for r in grid]
     assert memory[0] > memory[2] > memory[-1]
     assert {w["case"] for w in trees.grid_wins(rows)} == set(trees.CASES)
+    assert "rays walk spheres and oriented boxes one by one" in trees.as_text(rows)
     pytest.importorskip("matplotlib")
     trees.plot(rows, tmp_path / "trees.png")
     assert (tmp_path / "trees.png").stat().st_size > 10000
