@@ -253,10 +253,16 @@ class Feature:
       face_vertex
 
       edge_edge
+
+      edge_face : at time 0: an edge is through a face
+
+      face_edge
     """
 
     __members__: typing.ClassVar[dict[str, Feature]]
     edge_edge: typing.ClassVar[Feature]
+    edge_face: typing.ClassVar[Feature]
+    face_edge: typing.ClassVar[Feature]
     face_vertex: typing.ClassVar[Feature]
     none: typing.ClassVar[Feature]
     vertex_face: typing.ClassVar[Feature]
