@@ -169,8 +169,13 @@ def run(
     return rows
 
 
+def _cases(rows) -> list[str]:
+    return list(dict.fromkeys(r["case"] for r in rows))
+
+
 def plot(rows, path) -> None:
-    """Wrong answers against time per query: one panel for random queries, one for hard ones."""
+    """Wrong answers against time per query: one panel for random queries, one for hard ones. A
+    method that ran out of its time says how many queries it got through."""
     import matplotlib as mpl
 
     mpl.use("Agg")
@@ -181,6 +186,7 @@ def plot(rows, path) -> None:
     markers = dict(zip(KINDS, "o^", strict=True))
     figure, panels = plt.subplots(1, 2, figsize=(11, 4.6), sharey=True, layout="constrained")
     floor = 3e-5
+    asked = {case: max(r["queries"] for r in rows if r["case"] == case) for case in _cases(rows)}
     for panel, case in zip(panels, ("random", "hard"), strict=True):
         for colour, method in enumerate(methods):
             for r in rows:
@@ -193,8 +199,19 @@ def plot(rows, path) -> None:
                     markers[kind],
                     color=f"C{colour}",
                     markersize=9,
+                    markeredgecolor="white",
                     label=method if kind == KINDS[0] else None,
                 )
+                if r["queries"] < asked[r["case"]]:
+                    panel.annotate(
+                        f"{r['queries']} of {asked[r['case']]}",
+                        (1e6 * r["seconds"], max(r["error"], floor)),
+                        xytext=(0, 8 if kind == KINDS[0] else -15),
+                        textcoords="offset points",
+                        ha="center",
+                        fontsize=8,
+                        color=f"C{colour}",
+                    )
         panel.axhspan(floor / 2, floor * 1.6, color="0.93", zorder=0)
         panel.set(
             xscale="log",
