@@ -93,9 +93,10 @@ def _wrong(index: Bvh | HashGrid, truth: AllFaces, kind: str, arguments: tuple) 
 
 
 def _timed(call: Callable[[], object], least: float = 0.02) -> float:
-    """Seconds per call, the fastest of repeats over at least `least` seconds."""
-    best, spent = np.inf, 0.0
-    while spent < least:
+    """Seconds per call, the fastest of at least three repeats over at least `least` seconds."""
+    best, spent, repeats = np.inf, 0.0, 0
+    while spent < least or repeats < 3:
+        repeats += 1
         begin = time.thread_time()
         call()
         took = time.thread_time() - begin
