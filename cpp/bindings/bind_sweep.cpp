@@ -38,7 +38,8 @@ void bind_sweep(py::module_& m) {
   auto ccd = m.attr("ccd").cast<py::module_>();
   py::enum_<carom::SweepStatus>(ccd, "SweepStatus", "How a sweep ended.", py::arithmetic())
       .value("separated", carom::SweepStatus::separated, "certified: farther than thickness")
-      .value("contact", carom::SweepStatus::contact, "distance <= thickness + tolerance at time")
+      .value("contact", carom::SweepStatus::contact,
+             "distance <= thickness + tolerance within 1e-9 of the step after time")
       .value("interval_limit", carom::SweepStatus::interval_limit, "certified only up to time");
   py::enum_<SweepResult::Kind>(ccd, "Feature", "Which features met.")
       .value("none", SweepResult::Kind::none)

@@ -192,7 +192,7 @@ class SweepStatus:
 
       separated : certified: farther than thickness
 
-      contact : distance <= thickness + tolerance at time
+      contact : distance <= thickness + tolerance within 1e-9 of the step after time
 
       interval_limit : certified only up to time
     """

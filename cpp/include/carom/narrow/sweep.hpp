@@ -38,8 +38,10 @@ struct SweptBody {
 [[nodiscard]] SweptBody::Edges edges_of(const TriangleMesh::Faces& faces);
 
 enum class SweepStatus : std::uint8_t {
-  separated,       ///< certified: farther than thickness throughout
-  contact,         ///< at `time` the distance is at most thickness + tolerance
+  separated,  ///< certified: farther than thickness throughout
+  /// The distance gets to thickness + tolerance or below at `time` or at most
+  /// tolerance::contact_time of the step after it.
+  contact,
   interval_limit,  ///< cap reached: certified only up to `time`; treat it as a contact there
 };
 
