@@ -59,13 +59,8 @@ struct Closing {
 double most_closing(const MovingPart& a, const MovingPart& b, double t, double end) {
   const Vector3d v = b.path->velocity_at(t) - a.path->velocity_at(t);
   const Vector3d w = b.path->velocity_at(end) - a.path->velocity_at(end);
-  double speed = std::max(v.norm(), w.norm());
-  for (const MovingPart* part : {&a, &b}) {
-    double rate = 0;
-    for (const BodyPath::Arc& arc : part->path->arcs) rate = std::max(rate, arc.rate.norm());
-    speed += rate * part->arm;
-  }
-  return speed * (end - t);
+  const double speed = std::max(v.norm(), w.norm());
+  return (speed + a.spin * a.arm + b.spin * b.arm) * (end - t);
 }
 
 /// The longest stride from t, no longer than `most`, over which the dip below the chord is covered.
@@ -82,8 +77,16 @@ double stride(const MovingPart& a, const MovingPart& b, const FirstContact& here
 
 }  // namespace
 
-MovingPart MovingPart::of(const Convex& convex, const Frame& in_body, const BodyPath& path) {
+double fastest_spin(const BodyPath& path) {
+  double square = 0;
+  for (const BodyPath::Arc& arc : path.arcs) square = std::max(square, arc.rate.squaredNorm());
+  return std::sqrt(square);
+}
+
+MovingPart MovingPart::of(const Convex& convex, const Frame& in_body, const BodyPath& path,
+                          double spin) {
   MovingPart part;
+  part.spin = spin;
   part.convex = convex;
   part.in_body = in_body;
   part.path = &path;

@@ -10,14 +10,18 @@ struct MovingPart {
   Convex convex;
   Frame in_body;
   const BodyPath* path = nullptr;
-  double arm = 0;  ///< m, of the farthest point of the core from the centre of mass
+  double arm = 0;   ///< m, of the farthest point of the core from the centre of mass
+  double spin = 0;  ///< rad/s, of the fastest arc of its path
   bool half_space = false;
   Eigen::Vector3d normal_b = Eigen::Vector3d::UnitZ();  ///< of a half-space, unit
   double offset = 0;                                    ///< m
 
   [[nodiscard]] static MovingPart of(const Convex& convex, const Frame& in_body,
-                                     const BodyPath& path);
+                                     const BodyPath& path, double spin);
 };
+
+/// rad/s, of the fastest arc of a path. A body that tumbles has hundreds of arcs: asked once.
+[[nodiscard]] double fastest_spin(const BodyPath& path);
 
 /// Signed distance of two parts at one time. Gaps above `beyond` m are bounds from below. Of two
 /// half-spaces nothing is asked; one comes first.

@@ -38,18 +38,18 @@ const MeshSurface* surface_of(const Shape& shape) {
   return nullptr;
 }
 
-void take_apart(const Shape& shape, const Frame& in_body, const BodyPath& path,
+void take_apart(const Shape& shape, const Frame& in_body, const BodyPath& path, double spin,
                 std::vector<Leaf>& out) {
   if (const auto* whole = std::get_if<Compound>(&shape)) {
     for (const CompoundPart& part : *whole->parts)
-      take_apart(part.shape, in_body * Frame(part.pose), path, out);
+      take_apart(part.shape, in_body * Frame(part.pose), path, spin, out);
     return;
   }
   if (const auto* balls = std::get_if<ParticleSet>(&shape)) {
     for (Eigen::Index i = 0; i < balls->positions.rows(); ++i) {
       Leaf leaf;
       leaf.part = MovingPart::of(Convex::point(balls->positions.row(i).transpose(), balls->radius),
-                                 in_body, path);
+                                 in_body, path, spin);
       leaf.radius = leaf.part.arm + balls->radius;
       out.push_back(leaf);
     }
@@ -66,7 +66,7 @@ void take_apart(const Shape& shape, const Frame& in_body, const BodyPath& path,
     leaf.part.normal_b = in_body.rotation * plane->normal.normalized();
     leaf.part.offset = plane->offset + leaf.part.normal_b.dot(in_body.translation);
   } else if (const auto convex = convex_of(shape)) {
-    leaf.part = MovingPart::of(*convex, in_body, path);
+    leaf.part = MovingPart::of(*convex, in_body, path, spin);
   } else {
     leaf.surface = surface_of(shape);
   }
@@ -76,6 +76,7 @@ void take_apart(const Shape& shape, const Frame& in_body, const BodyPath& path,
 /// One pair of bodies being asked about.
 struct Search {
   const BodyPath &path_a, &path_b;
+  double spin_a, spin_b;  // rad/s, of the fastest arc
   double from, end;
   double target = 0;      // m, a gap this small is a contact
   bool only_now = false;  // look at `from` alone: how near they are already
@@ -86,10 +87,13 @@ struct Search {
     return path.centre_bounds(t0, t1).inflated(leaf.radius + tolerance::sweep_clear);
   }
 
+  [[nodiscard]] double spin_of(const BodyPath& path) const {
+    return &path == &path_a ? spin_a : spin_b;
+  }
+
   /// Bound on the way of any point of a body that lies within `radius` of its centre.
-  static double way(const BodyPath& path, double radius, double t0, double t1) {
-    double rate = 0;
-    for (const BodyPath::Arc& arc : path.arcs) rate = std::max(rate, arc.rate.norm());
+  [[nodiscard]] double way(const BodyPath& path, double radius, double t0, double t1) const {
+    const double rate = spin_of(path);
     const double speed = std::max(path.velocity_at(t0).norm(), path.velocity_at(t1).norm());
     return (speed + rate * radius) * (t1 - t0);
   }
@@ -127,7 +131,8 @@ struct Search {
     for (const int f : near) {
       const std::array<Vector3d, 3> corners{s.surface->corner(f, 0), s.surface->corner(f, 1),
                                             s.surface->corner(f, 2)};
-      const MovingPart face = MovingPart::of(Convex::hull(corners), s.in_body, path_s);
+      const MovingPart face =
+          MovingPart::of(Convex::hull(corners), s.in_body, path_s, spin_of(path_s));
       surface_is_a ? ask(face, part, t0, t1) : ask(part, face, t0, t1);
     }
   }
@@ -143,7 +148,7 @@ struct Search {
     for (const int f : mine) {
       const std::array<Vector3d, 3> corners{a.surface->corner(f, 0), a.surface->corner(f, 1),
                                             a.surface->corner(f, 2)};
-      const MovingPart face = MovingPart::of(Convex::hull(corners), a.in_body, path_a);
+      const MovingPart face = MovingPart::of(Convex::hull(corners), a.in_body, path_a, spin_a);
       faces(b, path_b, face, face.arm, false, from, last(), 0);
     }
   }
@@ -204,7 +209,8 @@ struct Search {
       corners.clear();
       for (Eigen::Index v = 0; v < other.surface->mesh.vertices.rows(); ++v)
         corners.push_back(other.surface->vertex(static_cast<int>(v)));
-      part = MovingPart::of(Convex::hull(corners), other.in_body, turned ? path_a : path_b);
+      part = turned ? MovingPart::of(Convex::hull(corners), other.in_body, path_a, spin_a)
+                    : MovingPart::of(Convex::hull(corners), other.in_body, path_b, spin_b);
     }
     const double before = best.time;
     const Status status = best.status;
@@ -237,12 +243,13 @@ FirstContact first_contact(const Shape& a, const BodyPath& path_a, const Shape& 
                            const BodyPath& path_b, double from, double end, double deepest) {
   thread_local std::vector<Leaf> of_a, of_b;
   of_a.clear(), of_b.clear();
-  take_apart(a, {}, path_a, of_a);
-  take_apart(b, {}, path_b, of_b);
-  Search now{path_a, path_b, from, from};
+  const double spin_a = narrow::fastest_spin(path_a), spin_b = narrow::fastest_spin(path_b);
+  take_apart(a, {}, path_a, spin_a, of_a);
+  take_apart(b, {}, path_b, spin_b, of_b);
+  Search now{path_a, path_b, spin_a, spin_b, from, from};
   now.only_now = true;
   now.run(of_a, of_b);
-  Search search{path_a, path_b, from, end};
+  Search search{path_a, path_b, spin_a, spin_b, from, end};
   const double left = 1 + std::min(now.best.gap, 0.0) / deepest;
   const double slop = tolerance::sweep_slop * std::max(left, tolerance::sweep_least_slop);
   search.target =
