@@ -62,6 +62,20 @@ def test_the_summary_counts_by_group_and_names_the_failed(monkeypatch, capsys):
     assert lines[-1] == f"FAIL bad: 3 m, limit 2; {good.why}"
 
 
+def test_markdown_has_a_row_per_group_and_names_the_failed(monkeypatch, capsys):
+    good = cases_of("inertia")[0]
+    bad = good._replace(name="bad", run=lambda: 3.0, limit=2.0, unit="m")
+    other = good._replace(group="time")
+    chosen = {"inertia": (bad, good), "time": (other,)}
+    monkeypatch.setattr(stress, "cases_of", lambda g: chosen.get(g, ()))
+    assert main(["stress", "--markdown"]) == 1
+    assert capsys.readouterr().out.splitlines()[2:] == [
+        f"| `inertia` | {GROUPS['inertia'][0]} | 2 | 1 | `bad` |",
+        f"| `time` | {GROUPS['time'][0]} | 1 | 1 |  |",
+        "| all |  | 3 | 2 | `bad` |",
+    ]
+
+
 def test_json_has_a_schema_and_every_column(capsys):
     assert main(["stress", "inertia", "--only", "axes_of_a_cube", "--json"]) == 0
     result = json.loads(capsys.readouterr().out)

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The table of hard cases, one test each; of those known to fail a fix shows as XPASS."""
 
+from pathlib import Path
+
 import pytest
 
-from carom.stress import GROUPS, cases_of, run_case
+from carom.commands.stress import as_markdown
+from carom.stress import GROUPS, Outcome, cases_of, run_case
 
 KNOWN = {
     "house_of_two_cards": "parallel edges meet with the normal of a face, not of the pair",
@@ -33,3 +36,14 @@ def test_names_are_unique_and_rows_complete():
         assert len(case.why) > 20
         assert len(case.measures) > 10
         assert case.unit
+
+
+README = (Path(__file__).parents[2] / "README.md").read_text()
+MARK = "<!-- carom stress --markdown -->\n"
+
+
+@pytest.mark.skipif(MARK not in README, reason="the README does not hold the table")
+def test_the_readme_holds_what_the_command_prints():
+    """The tests above run every case; here it is enough that the table says the same as they do."""
+    outcomes = [Outcome(case, 0.0, case.name not in KNOWN, 0.0) for case in CASES]
+    assert README.partition(MARK)[2].startswith(as_markdown(outcomes) + "\n")

@@ -18,6 +18,7 @@ EXAMPLE = """\
   carom stress rotation contact
   carom stress --only stack_of_30 --json
   carom stress --summary
+  carom stress --markdown
   carom stress --list
 """
 
@@ -36,6 +37,7 @@ def add(subparsers: argparse._SubParsersAction) -> None:
     option("--only", action="append", metavar="NAME", help="this case; may be given again")
     option("--list", action="store_true", help="print the cases and why each is hard, run none")
     option("--summary", action="store_true", help="a row per group, and those that failed")
+    option("--markdown", action="store_true", help="the summary as a table for a README")
     option("--long", action="store_true", help="ten times the length where a case has more to give")
     option("--quiet", action="store_true", help="no progress")
     option("--json", action="store_true", help="print the result as JSON")
@@ -60,6 +62,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         rows = [as_row(outcome) for outcome in outcomes]
         print_json("carom.stress/1", {"ok": not failed, "failed": len(failed), "cases": rows})
+    elif arguments.markdown:
+        print(as_markdown(outcomes))
     else:
         print(_by_group(outcomes) if arguments.summary else _by_case(outcomes))
         _print_failed(outcomes, failed)
@@ -124,6 +128,23 @@ def _by_group(outcomes: Sequence[Outcome]) -> str:
         seconds = sum(outcome.seconds for outcome in mine)
         lines.append([group, str(len(mine)), str(bad), f"{seconds:.1f} s", GROUPS[group][0]])
     return table(["group", "cases", "failed", "time", "about"], lines)
+
+
+def as_markdown(outcomes: Sequence[Outcome]) -> str:
+    """A row per group and one for all: how many cases, how many passed, which failed. Without
+    times, so that it says the same wherever it is run."""
+    lines = ["| group | about | cases | passed | failed |", "|---|---|---|---|---|"]
+    for group in dict.fromkeys(outcome.case.group for outcome in outcomes):
+        mine = [outcome for outcome in outcomes if outcome.case.group == group]
+        lines.append(_markdown_row(f"`{group}` | {GROUPS[group][0]}", mine))
+    lines.append(_markdown_row("all | ", outcomes))
+    return "\n".join(lines)
+
+
+def _markdown_row(what: str, outcomes: Sequence[Outcome]) -> str:
+    failed = [f"`{outcome.case.name}`" for outcome in outcomes if not outcome.passed]
+    passed = len(outcomes) - len(failed)
+    return f"| {what} | {len(outcomes)} | {passed} | {', '.join(failed)} |"
 
 
 def _by_case(outcomes: Sequence[Outcome]) -> str:
