@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carom import Scene, Simulation
-from carom.studies import tunnel_truth
+from carom.studies import tunnel_picture, tunnel_truth
 from carom.studies.tunnel_bodies import KINDS, make
 from carom.studies.tunnel_judge import CavityJudge, PairJudge, WallJudge, rotation
 from carom.studies.tunnel_scenes import AXES, make_run, sheet
@@ -107,6 +107,11 @@ def test_bodies_are_as_large_as_they_say(kind):
         # a point of a box's or particle's own grid may lie inside; none may lie outside
         assert distance[:-1].max() <= 1e-6
         assert np.linalg.norm(mover.surface, axis=1).max() == pytest.approx(mover.outer)
+
+
+def test_the_picture_shows_what_it_says():
+    assert len(tunnel_picture.passed(tunnel_picture.run("never"))) == 7
+    assert tunnel_picture.passed(tunnel_picture.run("auto")) == []
 
 
 def test_runs_are_the_same_for_the_same_seed():
