@@ -4,8 +4,9 @@
 namespace carom {
 namespace {
 
-// Turns of a wait before the processor is offered to others: some microseconds, as long as the work
-// between two meetings takes. On a busy machine the one waited for may need this very processor.
+// Turns of a wait before it sleeps: some ten microseconds, as long as the work between two meetings
+// takes. On a busy machine the one waited for may need this very processor, and who slept is woken
+// at once where who only stood back waits for its turn.
 constexpr int turns = 2048;
 // Turns an idle worker waits for the next task before it sleeps: the gaps between tasks of a step.
 constexpr int idle_turns = 16 * turns;
@@ -16,14 +17,14 @@ void pause() {
 #endif
 }
 
-template <class Done>
-void wait_until(Done done) {
-  for (int turn = 0; !done(); ++turn) {
-    if (turn < turns)
-      pause();
-    else
-      std::this_thread::yield();
+/// Returns once `value` is no longer `old`.
+template <class T>
+void wait_while(const std::atomic<T>& value, T old, int spins) {
+  for (int turn = 0; turn < spins; ++turn) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    pause();
   }
+  value.wait(old, std::memory_order_acquire);
 }
 
 }  // namespace
@@ -42,13 +43,11 @@ Workers::~Workers() {
 
 void Workers::serve(int index) {
   for (unsigned seen = 0;;) {
-    for (int turn = 0; turn < idle_turns && round_.load(std::memory_order_acquire) == seen; ++turn)
-      pause();
-    round_.wait(seen, std::memory_order_acquire);
+    wait_while(round_, seen, idle_turns);
     ++seen;  // the next task starts only when all have ended this one
     if (ending_.load(std::memory_order_relaxed)) return;
     call_(context_, {index, count()});
-    busy_.fetch_sub(1, std::memory_order_release);
+    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_all();
   }
 }
 
@@ -58,7 +57,8 @@ void Workers::start(Call call, void* context) {
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
   call(context, {0, count()});
-  wait_until([&] { return busy_.load(std::memory_order_acquire) == 0; });
+  for (int left; (left = busy_.load(std::memory_order_acquire)) != 0;)
+    wait_while(busy_, left, turns);
 }
 
 void Workers::meet() {
@@ -66,8 +66,9 @@ void Workers::meet() {
   if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == count()) {
     arrived_.store(0, std::memory_order_relaxed);
     meeting_.store(meeting + 1, std::memory_order_release);
+    meeting_.notify_all();
   } else {
-    wait_until([&] { return meeting_.load(std::memory_order_acquire) != meeting; });
+    wait_while(meeting_, meeting, turns);
   }
 }
 
