@@ -19,6 +19,10 @@ namespace {
 // With components below 2: difference, interpolation, unit direction and dot product are off by
 // less than 60 u together; distances likewise.
 constexpr double rounding = 128 * tolerance::unit_roundoff;
+// Nearer than this, of the largest corner, directions are made better than division gives them: the
+// nearest point's rounding of some u turns them by u over this, which far corners would show. A
+// choice of speed alone: any unit direction is a valid witness.
+constexpr double careful = 1e-4;
 constexpr double time_width = 0x1p-31;  // below half of tolerance::contact_time
 constexpr int max_depth = 46;           // here a cell's motion is below thickness_slack
 constexpr int max_cells = 1 << 14;  // bounds the time; of 37,800 hard cases the worst took 2,685
@@ -26,6 +30,35 @@ constexpr int max_cells = 1 << 14;  // bounds the time; of 37,800 hard cases the
 struct Cell {
   double start, width;
 };
+
+// A unit direction along which all corners lie as far out as can be told: that of the nearest point
+// `from`, or, where that is so near that its rounding u turns it by more than a far corner bears,
+// the same made orthogonal to the edge it lies on. Any unit vector is a valid witness.
+template <int Corners>
+Eigen::Vector3d witness(const Polygon<Corners>& v, const Eigen::Vector3d& from) {
+  const auto least_along = [&](const Eigen::Vector3d& n) {
+    double least = n.dot(v[0]);
+    for (int i = 1; i < Corners; ++i) least = std::min(least, n.dot(v[i]));
+    return least;
+  };
+  Eigen::Vector3d best = from / from.norm();
+  double most = least_along(best);
+  const Eigen::Vector3d plain = best;
+  const auto offer = [&](const Eigen::Vector3d& n) {
+    const double length = n.norm();
+    if (!(length > 0)) return;
+    const double least = least_along(n / length);
+    if (least > most) most = least, best = n / length;
+  };
+  for (int i = 0; i < Corners; ++i) {
+    const Eigen::Vector3d edge = v[(i + 1) % Corners] - v[i];
+    const double length = edge.squaredNorm();
+    if (length > 0) offer(plain - (plain.dot(edge) / length) * edge);
+  }
+  const Eigen::Vector3d normal = (v[1] - v[0]).cross(v[2] - v[1]);
+  offer(normal.dot(plain) < 0 ? Eigen::Vector3d(-normal) : normal);
+  return best;
+}
 
 }  // namespace
 
@@ -75,7 +108,9 @@ CcdHit thick_contact(const double* query, double thickness, int* cells) {
       return {true, cell.start,
               at_start <= reach - rounding ? CcdStatus::certified : CcdStatus::conservative};
     if (at_end > reach) {
-      const Eigen::Vector3d n0 = from / at_start, n1 = to / at_end;
+      const bool near = std::min(at_start, at_end) < careful;
+      const Eigen::Vector3d n0 = near ? witness<Corners>(first, from) : from / at_start;
+      const Eigen::Vector3d n1 = near ? witness<Corners>(last, to) : to / at_end;
       double least = reach + 1;
       for (int i = 0; i < Corners; ++i)
         least = std::min(

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "carom/numerics/invalid_input.hpp"
@@ -133,6 +134,33 @@ TEST(MovingTriangle, RefusesNonFiniteInputAndDisagreeingSizes) {
   std::vector<double> queries(48), time(1);
   std::vector<std::uint8_t> hit(2), status(2);
   EXPECT_THROW(point_triangle(queries, {hit, time, status}), InvalidInput);
+}
+
+TEST(Thickness, DoesNotCryWolfForASpeckBesideALongEdge) {
+  // An edge of 1e-8 m lies 1e-6 m beside one of 200 m: the distance is 5e-9 of the length, so the
+  // direction between them, a difference of rounded points, is off by 1e-7 of itself; 100 m along
+  // the edge that is ten times the distance.
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  const auto any = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
+  int hits = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d along = any().normalized(), middle = any();
+    const Eigen::Vector3d aside = along.cross(any()).normalized();
+    MovingFour q;
+    q.start.col(0) = middle + 1e-6 * aside + 30 * along;
+    q.start.col(1) = q.start.col(0) + 1e-8 * aside;
+    q.start.col(2) = middle - 100 * along;
+    q.start.col(3) = middle + 100 * along;
+    const Eigen::Vector3d moves = 1e-3 * along;
+    q.end = q.start;
+    q.end.col(0) += moves;
+    q.end.col(1) += moves;
+    // Coordinates of 100 m round by 1.4e-14 m: the distance stays above 0.99e-6.
+    hits += edge_edge(q, {.thickness = 5e-7}).hit;
+    EXPECT_TRUE(edge_edge(q, {.thickness = 1.01e-6}).hit);
+  }
+  EXPECT_EQ(hits, 0);
 }
 
 }  // namespace
