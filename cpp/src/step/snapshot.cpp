@@ -12,7 +12,8 @@
 namespace carom {
 namespace {
 
-constexpr std::uint32_t format = 3;  // raised whenever the list below changes
+// Raised whenever the list below changes. Two lists were both called 3, so neither is read.
+constexpr std::uint32_t format = 4;
 
 struct Writer {
   std::string bytes;
@@ -160,15 +161,18 @@ template <class Io>
 void header(Io& io, Scene& scene) {
   std::uint32_t version = format;
   io.value(version);
+  if (version != format)
+    throw InvalidInput("bytes", "format " + std::to_string(version),
+                       "must be of format " + std::to_string(format),
+                       version < format ? "an older carom saved them: restore them there"
+                                        : "a newer carom saved them: restore them there");
   std::vector<BodyId> ids;
   for (const Scene::Body& body : scene.bodies) ids.push_back(body.id);
   const std::vector<BodyId> expected = ids;
   io.array(ids);
-  if (version != format || ids != expected)
-    throw InvalidInput(
-        "bytes",
-        "format " + std::to_string(version) + ", " + std::to_string(ids.size()) + " bodies",
-        "must come from a simulation of the same bodies and the same build");
+  if (ids != expected)
+    throw InvalidInput("bytes", std::to_string(ids.size()) + " bodies",
+                       "must come from a simulation of the same bodies");
 }
 
 std::vector<AppliedWrench> held_wrenches(const Scene& scene) {

@@ -2,7 +2,10 @@
 #include "carom/step/simulation.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -134,6 +137,25 @@ TEST(Simulation, RestoreGivesTheSameBits) {
   EXPECT_THROW(sim.restore(saved.substr(0, saved.size() - 1)), InvalidInput);
   EXPECT_THROW(lone_box().restore(saved), InvalidInput);
   EXPECT_EQ(sim.state_hash(), once);
+}
+
+TEST(Simulation, NamesASavedFormatItDoesNotRead) {
+  Simulation sim = lone_box();
+  const std::string saved = sim.save();
+  for (const auto& [format, remedy] :
+       {std::pair(3u, "an older carom saved them"), std::pair(99u, "a newer carom saved them")}) {
+    std::string other = saved;
+    std::memcpy(other.data(), &format, sizeof format);  // it comes first
+    try {
+      sim.restore(other);
+      FAIL() << "format " << format << " was read";
+    } catch (const InvalidInput& error) {
+      const std::string said = error.what();
+      EXPECT_NE(said.find("format " + std::to_string(format)), std::string::npos) << said;
+      EXPECT_NE(said.find(remedy), std::string::npos) << said;
+    }
+  }
+  EXPECT_EQ(sim.save(), saved);  // and nothing was changed
 }
 
 TEST(Simulation, AStateThatOverflowsIsFrozenAndSaid) {
