@@ -21,16 +21,21 @@ def inverse(q: Array) -> Array:
 
 
 class Placed:
-    """A piece's support function at a pose."""
+    """A piece's support function at a pose, or at N: positions (N, 3), orientations (N, 4)."""
 
     def __init__(self, support: Support, position: Array, orientation: Array) -> None:
         self.support, self.position, self.back = support, position, inverse(orientation)
 
     def __call__(self, n: Array) -> Array:
-        """n: (..., 3) unit, world."""
-        return self.support(rotated(np.broadcast_to(self.back, (*n.shape[:-1], 4)), n)) + (
-            n @ self.position
-        )
+        """n: (..., 3) unit, world; of N poses (N, ..., 3)."""
+        extra = n.ndim - self.position.ndim
+        shape = (*self.position.shape[:-1], *([1] * extra))
+        back = np.broadcast_to(self.back.reshape(*shape, 4), (*n.shape[:-1], 4))
+        place = self.position.reshape(*shape, 3)
+        return self.support(rotated(back, n)) + (n * place).sum(-1)
+
+    def some(self, rows: Array) -> Placed:
+        return Placed(self.support, self.position[rows], inverse(self.back)[rows])
 
 
 def gap(a: Placed, b: Placed, n: Array) -> Array:
@@ -38,32 +43,50 @@ def gap(a: Placed, b: Placed, n: Array) -> Array:
     return -a(n) - b(-n)
 
 
-def largest_gap(a: Placed, b: Placed, random: np.random.Generator) -> float:
-    """The distance, or minus the depth. Every direction tried is a lower bound, so never too large.
+def coarse_gaps(a: Placed, b: Placed, random: np.random.Generator) -> tuple[Array, Array]:
+    """Of N poses: (N, 4) the best gaps of a look round, and (N, 4, 3) their directions.
+
+    Every direction tried is a lower bound, so these are never too large.
+    """
+    around = random.normal(size=(600, 3))
+    around /= np.linalg.norm(around, axis=1, keepdims=True)
+    across = b.position - a.position
+    length = np.linalg.norm(across, axis=1, keepdims=True)
+    n = np.repeat(around[None], len(across), axis=0)
+    n[:, 0] = np.where(length > 0, across / np.where(length > 0, length, 1), n[:, 0])
+    values = gap(a, b, n)
+    best = np.argsort(values, axis=1)[:, -4:]
+    return np.take_along_axis(values, best, 1), np.take_along_axis(n, best[..., None], 1)
+
+
+def largest_gaps(
+    a: Placed, b: Placed, random: np.random.Generator, start: tuple[Array, Array] | None = None
+) -> Array:
+    """(N,): the distances, or minus the depths; never too large.
 
     A coarse look round, then the best few improved by random steps that grow when they help and
     shrink when they do not: it needs no smoothness, as there is none at edges and corners.
     """
-    n = random.normal(size=(1200, 3))
-    n /= np.linalg.norm(n, axis=1, keepdims=True)
-    across = b.position - a.position
-    if np.linalg.norm(across) > 0:
-        n[0] = across / np.linalg.norm(across)
-    values = gap(a, b, n)
-    best = np.argsort(values)[-4:]
-    n, values = n[best], values[best]
-    step = np.full(len(n), 0.1)
+    values, n = start or coarse_gaps(a, b, random)
+    step = np.full(values.shape, 0.1)
     for _ in range(120):
-        tries = n[:, None] + step[:, None, None] * random.normal(size=(len(n), 16, 3))
-        tries /= np.linalg.norm(tries, axis=2, keepdims=True)
+        tries = n[:, :, None] + step[..., None, None] * random.normal(size=(*n.shape[:2], 16, 3))
+        tries /= np.linalg.norm(tries, axis=-1, keepdims=True)
         found = gap(a, b, tries)
-        top = found.argmax(1)
-        reached = found[np.arange(len(n)), top]
+        top = found.argmax(-1)[..., None]
+        reached = np.take_along_axis(found, top, -1)[..., 0]
         better = reached > values
-        n = np.where(better[:, None], tries[np.arange(len(n)), top], n)
+        new = np.take_along_axis(tries, top[..., None], -2)[..., 0, :]
+        n = np.where(better[..., None], new, n)
         values = np.where(better, reached, values)
         step = np.clip(step * np.where(better, 1.4, 0.6), 1e-13, 0.5)
-    return float(values.max())
+    return values.max(1)
+
+
+def largest_gap(a: Placed, b: Placed, random: np.random.Generator) -> float:
+    """largest_gaps of one pose."""
+    one = [Placed(p.support, p.position[None], inverse(p.back)[None]) for p in (a, b)]
+    return float(largest_gaps(one[0], one[1], random)[0])
 
 
 def winding_number(triangles: Array, p: Array) -> float:

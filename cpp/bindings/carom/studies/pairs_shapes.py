@@ -76,10 +76,10 @@ def _l_block() -> tuple[Array, Array]:
 
 
 def _hills() -> Array:
-    """Heights over 0.25 m cells, level in the middle 2 m."""
-    rows = np.arange(17)
+    """Heights over 0.25 m cells, 8 m wide, with a level square from 3.5 to 7.5 m."""
+    rows = np.arange(33)
     hills = 0.1 * np.sin(rows)[:, None] * np.cos(1.3 * rows)[None, :]
-    hills[4:13, 4:13] = 0.0
+    hills[14:31, 14:31] = 0.0
     return hills
 
 
@@ -142,7 +142,7 @@ def twins() -> list[Twin]:
             carom.HeightField(hills, 0.25),
             triangles=_height_field_triangles(hills, 0.25),
             solid_below=True,
-            flat=(np.array([2.0, 2.0, 0.0]), 0.95),
+            flat=(np.array([5.5, 5.5, 0.0]), 1.0),
             static=True,
         ),
         Twin(
