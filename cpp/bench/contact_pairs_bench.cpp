@@ -77,8 +77,9 @@ Measured measure(int bodies, const Shape& shape, double settle) {
     cache.begin_step();
     for (const BodyPair& p : tree.update(boxes, s.moves)) {
       out.clear();
-      cache.collide(p.a, p.b, simulation.scene().bodies[p.a].shape, s.pose(p.a),
-                    simulation.scene().bodies[p.b].shape, s.pose(p.b),
+      const Frame at_a(s.pose(p.a)), at_b(s.pose(p.b));
+      cache.collide(p.a, p.b, {simulation.scene().bodies[p.a].shape, at_a, s.pose(p.a).orientation},
+                    {simulation.scene().bodies[p.b].shape, at_b, s.pose(p.b).orientation},
                     tolerance::contact_margin + reach[p.a] + reach[p.b], radius, out);
     }
     if (step > 0)  // what was carried along keeps the pose it was found at

@@ -28,8 +28,9 @@ void add(const Vector3d& centre, const Vector3d& normal, double distance, double
 
 void ball_ball(double radius_a, const Vector3d& centre, double radius, double margin,
                std::vector<Manifold>& out) {
-  const double distance = centre.norm();
-  if (distance - radius_a - radius > margin) return;
+  const double reach = radius_a + radius + margin, square = centre.squaredNorm();
+  if (square > reach * reach) return;
+  const double distance = std::sqrt(square);
   const Vector3d n = distance > 0 ? Vector3d(centre / distance) : Vector3d::UnitZ();
   add(centre, n, distance - radius_a, radius, feature::curve(0), out);
 }

@@ -97,7 +97,7 @@ int edge_towards(const Vector3d& half, const Vector3d& n, int axis, Vector3d (&e
 }
 
 /// The face most along n, n in the box's frame. Returns the cosine between them.
-double face_towards(const Vector3d& half, const Vector3d& n, const Frame* frame, Face& out) {
+double face_towards(const Vector3d& half, const Vector3d& n, const Frame* frame, Quad& out) {
   int axis;
   const double cosine = n.cwiseAbs().maxCoeff(&axis);
   const int f = 2 * axis + (n[axis] > 0 ? 1 : 0);
@@ -116,7 +116,7 @@ double face_towards(const Vector3d& half, const Vector3d& n, const Frame* frame,
 
 void box_box(const Vector3d& half_a, const Vector3d& half_b, const Frame& b_in_a, double margin,
              std::vector<Manifold>& out) {
-  thread_local Face face_a, face_b;
+  Quad face_a, face_b;
   thread_local std::vector<ContactPoint> points;
   const double size = 2 * (half_a.norm() + half_b.norm());
   const double bias = tolerance::axis_preference * size;

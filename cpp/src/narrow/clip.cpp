@@ -17,14 +17,15 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 /// A face seen along the normal: plane coordinates and height of each corner.
+template <template <class...> class List>
 struct Flat {
-  std::vector<Vector2d> at;
-  std::vector<double> height, length;  // length: of the edge that starts at each corner
-  Vector2d slope = Vector2d::Zero();   // of the height over the plane
-  double size = 0, turn = 1;           // turn: -1 when corners run clockwise
+  List<Vector2d> at;
+  List<double> height, length;        // length: of the edge that starts at each corner
+  Vector2d slope = Vector2d::Zero();  // of the height over the plane
+  double size = 0, turn = 1;          // turn: -1 when corners run clockwise
   bool has_area = false;
 
-  void set(const Face& face, const Vector3d& u, const Vector3d& v, const Vector3d& n,
+  void set(const FaceOf<List>& face, const Vector3d& u, const Vector3d& v, const Vector3d& n,
            const Vector3d& origin) {
     const std::size_t count = face.points.size();
     at.resize(count);
@@ -41,7 +42,8 @@ struct Flat {
     for (std::size_t i = 0; i < count; ++i) length[i] = (at[(i + 1) % count] - at[i]).norm();
     set_plane(face, u, v, n);
   }
-  void set_plane(const Face& face, const Vector3d& u, const Vector3d& v, const Vector3d& n) {
+  void set_plane(const FaceOf<List>& face, const Vector3d& u, const Vector3d& v,
+                 const Vector3d& n) {
     Vector3d area = Vector3d::Zero();
     for (std::size_t i = 1; i + 1 < face.points.size(); ++i)
       area += (face.points[i] - face.points[0]).cross(face.points[i + 1] - face.points[0]);
@@ -62,8 +64,9 @@ struct Flat {
   }
 };
 
+template <template <class...> class List>
 struct Clipper {
-  const Face &a, &b;
+  const FaceOf<List>&a, &b;
   const Vector3d &u, &v, &n, &origin;
   double margin;
   std::vector<ContactPoint>& out;
@@ -75,7 +78,8 @@ struct Clipper {
   }
 };
 
-void crossings(const Clipper& c, const Flat& fa, const Flat& fb) {
+template <template <class...> class List>
+void crossings(const Clipper<List>& c, const Flat<List>& fa, const Flat<List>& fb) {
   const std::size_t na = fa.at.size(), nb = fb.at.size();
   for (std::size_t i = 0; i < (na == 2 ? 1 : na); ++i) {
     const std::size_t i1 = i + 1 < na ? i + 1 : 0;
@@ -98,12 +102,13 @@ void crossings(const Clipper& c, const Flat& fa, const Flat& fb) {
 }
 
 /// Two segments side by side: the ends of the stretch they share.
-void side_by_side(const Clipper& c, const Flat& fa, const Flat& fb) {
+template <template <class...> class List>
+void side_by_side(const Clipper<List>& c, const Flat<List>& fa, const Flat<List>& fb) {
   const Vector2d e = fa.at[1] - fa.at[0], g = fb.at[1] - fb.at[0];
   const double cross = e.x() * g.y() - e.y() * g.x();
   const double sine = std::sqrt(1 - tolerance::facing * tolerance::facing);
   if (std::abs(cross) > sine * e.norm() * g.norm()) return;
-  const auto ends = [&](const Flat& of, const Flat& on, bool of_a) {
+  const auto ends = [&](const Flat<List>& of, const Flat<List>& on, bool of_a) {
     const Vector2d along = on.at[1] - on.at[0];
     for (int i = 0; i < 2; ++i) {
       const double t = (of.at[i] - on.at[0]).dot(along) / along.squaredNorm();
@@ -121,16 +126,14 @@ void side_by_side(const Clipper& c, const Flat& fa, const Flat& fb) {
   ends(fb, fa, false);
 }
 
-}  // namespace
-
-void clip(const Face& a, const Face& b, const Vector3d& normal, double margin,
-          std::vector<ContactPoint>& out) {
-  thread_local Flat fa, fb;
+template <template <class...> class List>
+void clip_faces(const FaceOf<List>& a, const FaceOf<List>& b, const Vector3d& normal, double margin,
+                Flat<List>& fa, Flat<List>& fb, std::vector<ContactPoint>& out) {
   const Vector3d origin = a.points[0];
   const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
   fa.set(a, u, v, normal, origin);
   fb.set(b, u, v, normal, origin);
-  const Clipper clipper{a, b, u, v, normal, origin, margin, out};
+  const Clipper<List> clipper{a, b, u, v, normal, origin, margin, out};
   if (fa.has_area)
     for (std::size_t j = 0; j < fb.at.size(); ++j)
       if (fa.contains(fb.at[j]))
@@ -143,6 +146,20 @@ void clip(const Face& a, const Face& b, const Vector3d& normal, double margin,
                     feature::pair(a.vertex_features[i], b.feature));
   if (fa.at.size() > 1 && fb.at.size() > 1) crossings(clipper, fa, fb);
   if (fa.at.size() == 2 && fb.at.size() == 2) side_by_side(clipper, fa, fb);
+}
+
+}  // namespace
+
+void clip(const Face& a, const Face& b, const Vector3d& normal, double margin,
+          std::vector<ContactPoint>& out) {
+  thread_local Flat<std::vector> fa, fb;
+  clip_faces(a, b, normal, margin, fa, fb, out);
+}
+
+void clip(const Quad& a, const Quad& b, const Vector3d& normal, double margin,
+          std::vector<ContactPoint>& out) {
+  Flat<Four> fa, fb;
+  clip_faces(a, b, normal, margin, fa, fb, out);
 }
 
 }  // namespace carom

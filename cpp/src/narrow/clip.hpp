@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -7,12 +9,27 @@
 
 namespace carom {
 
+/// Up to four of a thing, on the stack: what a face of a box needs.
+template <class T>
+struct Four {
+  std::array<T, 4> items;
+  std::size_t count = 0;
+
+  void clear() { count = 0; }
+  void resize(std::size_t n) { count = n; }
+  void push_back(const T& x) { items[count++] = x; }
+  [[nodiscard]] std::size_t size() const { return count; }
+  [[nodiscard]] T& operator[](std::size_t i) { return items[i]; }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return items[i]; }
+};
+
 /// Supporting face of one shape: a convex polygon (or a segment, or a point), corners
 /// counter-clockwise from outside.
-struct Face {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<std::uint32_t> vertex_features;  ///< one per point
-  std::vector<std::uint32_t> edge_features;    ///< of the edge that starts at each point
+template <template <class...> class List>
+struct FaceOf {
+  List<Eigen::Vector3d> points;
+  List<std::uint32_t> vertex_features;  ///< one per point
+  List<std::uint32_t> edge_features;    ///< of the edge that starts at each point
   std::uint32_t feature = 0;
 
   void clear() { points.clear(), vertex_features.clear(), edge_features.clear(); }
@@ -22,6 +39,8 @@ struct Face {
     edge_features.push_back(edge);
   }
 };
+using Face = FaceOf<std::vector>;
+using Quad = FaceOf<Four>;
 
 /// Corners of the overlap of two faces seen along `normal` (unit, from a to b), each with the gap
 /// between the faces there; those with a gap above `margin` are left out. Appends.
@@ -29,6 +48,8 @@ struct Face {
 /// A corner is a vertex of one over the other or a crossing of two edges, and is named by them: the
 /// name does not depend on which shape was taken for reference.
 void clip(const Face& a, const Face& b, const Eigen::Vector3d& normal, double margin,
+          std::vector<ContactPoint>& out);
+void clip(const Quad& a, const Quad& b, const Eigen::Vector3d& normal, double margin,
           std::vector<ContactPoint>& out);
 
 }  // namespace carom

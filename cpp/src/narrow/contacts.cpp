@@ -134,10 +134,18 @@ bool is_sheet(const Leaf& leaf) {
   return leaf.kind == Kind::surface && leaf.surface->back;
 }
 
+/// An order of two grids that are not alike, so that a pair is worked out the same whoever asks.
+bool comes_later(const SdfGrid& a, const SdfGrid& b) {
+  if (a.spacing != b.spacing) return a.spacing > b.spacing;
+  if (a.values.size() != b.values.size()) return a.values.size() > b.values.size();
+  return std::ranges::lexicographical_compare(b.values, a.values);
+}
+
 /// Whether the pair is asked as (b, a).
 bool turned(const Leaf& a, const Leaf& b) {
   if (a.kind == Kind::half_space || b.kind == Kind::half_space) return b.kind == Kind::half_space;
   if (a.kind != b.kind) return a.kind < b.kind;
+  if (a.kind == Kind::sdf) return comes_later(*a.sdf, *b.sdf);
   return a.kind == Kind::convex && b.box && !a.box;
 }
 
@@ -219,6 +227,14 @@ bool taken_apart(const Shape& whole, const Frame& frame, const Shape& other,
   return true;
 }
 
+/// Balls at their places in the world.
+void two_balls(const Sphere& a, const Vector3d& at_a, const Sphere& b, const Vector3d& at_b,
+               double margin, Manifolds& out) {
+  const std::size_t begin = out.size();
+  ball_ball(a.radius, at_b - at_a, b.radius, margin, out);
+  if (out.size() > begin) out.back().points[0].position += at_a;
+}
+
 /// Pairs that come by the thousand, without the detour by leaves; false for all others.
 bool common_pair(const Shape& a, const Frame& frame_a, const Shape& b, const Frame& frame_b,
                  double margin, Manifolds& out) {
@@ -230,9 +246,7 @@ bool common_pair(const Shape& a, const Frame& frame_a, const Shape& b, const Fra
     box_box(0.5 * box_a->extents, 0.5 * box_b->extents, b_in_a, margin, out);
     in_world(frame_a, begin, 1, out);
   } else if (ball_a && ball_b) {
-    ball_ball(ball_a->radius, frame_b.translation - frame_a.translation, ball_b->radius, margin,
-              out);
-    in_world(Frame(Eigen::Matrix3d::Identity(), frame_a.translation), begin, 1, out);
+    two_balls(*ball_a, frame_a.translation, *ball_b, frame_b.translation, margin, out);
   } else if (box_a && ball_b) {
     box_ball(0.5 * box_a->extents, frame_a.to_local(frame_b.translation), ball_b->radius, margin,
              out);
@@ -264,6 +278,9 @@ void collide(const Shape& a, const Frame& frame_a, const Shape& b, const Frame& 
 
 void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin,
              Manifolds& out) {
+  if (const auto *ball_a = std::get_if<Sphere>(&a), *ball_b = std::get_if<Sphere>(&b);
+      ball_a && ball_b)  // without the two matrices
+    return two_balls(*ball_a, pose_a.position, *ball_b, pose_b.position, margin, out);
   collide_frames(a, Frame(pose_a), b, Frame(pose_b), margin, out);
 }
 

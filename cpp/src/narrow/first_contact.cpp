@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "carom/geometry/mesh_surface.hpp"
+#include "carom/geometry/sdf.hpp"
 #include "carom/narrow/queries.hpp"
 #include "carom/numerics/tolerance.hpp"
 
@@ -20,7 +22,8 @@ using Status = FirstContact::Status;
 
 constexpr int many_faces = 32;  // more of them in one stretch of the way: halve the stretch
 constexpr int most_halvings = 12;
-constexpr int grid_queries = 64;  // half of the gap each: 20 get from 1 m to 1 um; each is dear
+constexpr int grid_queries = 64;   // half of the gap each: 20 get from 1 m to 1 um; each is dear
+constexpr int grid_halvings = 16;  // of half a cell of way: 0.02 m to 0.3 um
 
 /// A shape without parts, where it sits in its body.
 struct Leaf {
@@ -91,6 +94,24 @@ struct Search {
     return &path == &path_a ? spin_a : spin_b;
   }
 
+  /// The world box that a part can reach from where it is at t0. Far from its body's centre, as a
+  /// face of a terrain is, this is much less than the ball about that centre.
+  [[nodiscard]] Aabb reached(const MovingPart& part, double t0, double t1) const {
+    const Frame frame = Frame(part.path->pose_at(t0)) * part.in_body;
+    Aabb box;
+    for (int i = 0; i < 3; ++i)
+      for (const double sign : {-1.0, 1.0}) {
+        const Vector3d d = sign * frame.rotation.row(i).transpose();
+        (sign < 0 ? box.lower : box.upper)[i] = (frame * part.convex.support(d))[i];
+      }
+    return box.inflated(part.convex.radius + way(*part.path, part.arm, t0, t1) +
+                        tolerance::sweep_clear);
+  }
+
+  static Aabb intersection(const Aabb& a, const Aabb& b) {
+    return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
+  }
+
   /// Bound on the way of any point of a body that lies within `radius` of its centre.
   [[nodiscard]] double way(const BodyPath& path, double radius, double t0, double t1) const {
     const double rate = spin_of(path);
@@ -110,7 +131,7 @@ struct Search {
     thread_local std::vector<int> near;
     Leaf ball;
     ball.radius = radius;
-    const Aabb world = swept(ball, *part.path, t0, t1);
+    const Aabb world = intersection(swept(ball, *part.path, t0, t1), reached(part, t0, t1));
     const Frame frame = Frame(path_s.pose_at(t0)) * s.in_body;
     const double slide = way(path_s, s.radius, t0, t1);
     const Aabb region = local(frame, world).inflated(slide);
@@ -153,39 +174,74 @@ struct Search {
     }
   }
 
-  /// A distance grid and anything: nothing may move farther than the gap.
-  void grid(const Leaf& a, const Leaf& b) {
+  /// Nearest points of a distance grid and anything at one time, no farther apart than `reach`.
+  ClosestPoints look(const Leaf& a, const Leaf& b, double t, double reach) {
     // Particles have no shape of their own in a leaf; a ball stands for them.
     const Shape ball_a = Sphere{a.part.convex.radius}, ball_b = Sphere{b.part.convex.radius};
-    const auto place = [](const Leaf& leaf, const BodyPath& path, double t) {
+    const auto place = [t](const Leaf& leaf, const BodyPath& path) {
       const Frame inner =
           leaf.shape ? leaf.in_body
                      : Frame(Eigen::Matrix3d::Identity(), leaf.in_body * leaf.part.convex.ends[0]);
       const Frame f = Frame(path.pose_at(t)) * inner;
       return Pose{f.translation, Eigen::Quaterniond(f.rotation)};
     };
+    const ClosestPoints near = closest_points(a.shape ? *a.shape : ball_a, place(a, path_a),
+                                              b.shape ? *b.shape : ball_b, place(b, path_b), reach);
+    ++best.queries;
+    best.gap = std::min(best.gap, near.distance);
+    return near;
+  }
+
+  void meet(const ClosestPoints& near, double t, Status status) {
+    if (best.status != Status::clear && best.time <= t) return;
+    best.status = status;
+    best.time = t;
+    best.normal = near.normal;
+    best.point = 0.5 * (near.point_a + near.point_b);
+  }
+
+  /// A distance grid and anything: nothing may move farther than the gap.
+  void grid(const Leaf& a, const Leaf& b) {
+    if (!only_now && target <= 0) return grid_from_touch(a, b);
     double t = from;
     for (int i = 0; t < end || i == 0; ++i) {
       const double most = way(path_a, a.radius, t, end) + way(path_b, b.radius, t, end);
       const double reach = most + 2 * tolerance::sweep_clear;
-      const ClosestPoints near =
-          closest_points(a.shape ? *a.shape : ball_a, place(a, path_a, t),
-                         b.shape ? *b.shape : ball_b, place(b, path_b, t), reach);
-      ++best.queries;
-      best.gap = std::min(best.gap, near.distance);
+      const ClosestPoints near = look(a, b, t, reach);
       if (only_now || !(near.distance <= reach)) return;
       const double room = near.distance - target;
       const bool touches = room <= 0.5 * tolerance::sweep_clear;
-      if (touches || i == grid_queries) {
-        if (best.status != Status::clear && best.time <= t) return;
-        best.status = touches ? Status::contact : Status::gave_up;
-        best.time = t;
-        best.normal = near.normal;
-        best.point = 0.5 * (near.point_a + near.point_b);
-        return;
-      }
+      if (touches || i == grid_queries)
+        return meet(near, t, touches ? Status::contact : Status::gave_up);
       if (room >= most) return;
       t += tolerance::sdf_stride * (end - t) * room / most;
+    }
+  }
+
+  /// What touches or overlaps at the start: there is no gap to measure a stride by, and the
+  /// gradient inside is no bound. Looks half a cell of way apart, as nothing in a grid is thinner;
+  /// where one is deeper than the start may become, halved to the time it did.
+  void grid_from_touch(const Leaf& a, const Leaf& b) {
+    double cell = std::numeric_limits<double>::infinity();
+    for (const Leaf* leaf : {&a, &b})
+      if (leaf->is_grid) cell = std::min(cell, std::get<Sdf>(*leaf->shape).grid->spacing);
+    const double most = way(path_a, a.radius, from, end) + way(path_b, b.radius, from, end);
+    const double looks =
+        std::clamp(std::ceil(2 * most / cell), 1.0, double{tolerance::sweep_queries});
+    const double reach = 2 * tolerance::sweep_clear;
+    double low = from;
+    for (int i = 1; i <= looks; ++i) {
+      double high = from + (end - from) * i / looks;
+      if (look(a, b, high, reach).distance >= target) {
+        low = high;
+        continue;
+      }
+      for (int k = 0; k < grid_halvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (look(a, b, middle, reach).distance >= target ? low : high) = middle;
+      }
+      const ClosestPoints near = look(a, b, low, reach);
+      return meet(near.distance <= reach ? near : look(a, b, high, reach), low, Status::contact);
     }
   }
 

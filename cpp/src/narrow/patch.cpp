@@ -2,7 +2,9 @@
 #include "narrow/patch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -11,18 +13,38 @@
 namespace carom {
 namespace {
 
+/// Scores of the points, each worked out once: on the stack for as many as a pair of faces has.
+class Scores {
+ public:
+  template <class Score>
+  Scores(std::span<const ContactPoint> points, const Score& score) {
+    if (points.size() > few_.size()) {
+      thread_local std::vector<double> many;
+      many.resize(points.size());
+      at_ = many.data();
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) at_[i] = score(points[i]);
+  }
+  double operator[](std::size_t i) const { return at_[i]; }
+
+ private:
+  std::array<double, 16> few_;
+  double* at_ = few_.data();
+};
+
 /// Index of the largest score; of scores equal to within `slack` the deepest, of those the one with
 /// the lowest feature: a choice that rounding cannot turn.
 template <class Score>
 int best(std::span<const ContactPoint> points, double slack, double depth_slack,
          const Score& score) {
+  const Scores scores(points, score);
   double top = -std::numeric_limits<double>::infinity(), depth = -top;
-  for (const ContactPoint& p : points) top = std::max(top, score(p));
-  for (const ContactPoint& p : points)
-    if (score(p) >= top - slack) depth = std::min(depth, p.separation);
+  for (std::size_t i = 0; i < points.size(); ++i) top = std::max(top, scores[i]);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (scores[i] >= top - slack) depth = std::min(depth, points[i].separation);
   int chosen = -1;
   for (int i = 0; i < static_cast<int>(points.size()); ++i)
-    if (score(points[i]) >= top - slack && points[i].separation <= depth + depth_slack &&
+    if (scores[i] >= top - slack && points[i].separation <= depth + depth_slack &&
         (chosen < 0 || points[i].feature < points[chosen].feature))
       chosen = i;
   return chosen;

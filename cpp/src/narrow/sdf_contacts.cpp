@@ -12,6 +12,7 @@
 #include "geometry/features.hpp"
 #include "narrow/candidates.hpp"
 #include "narrow/routines.hpp"
+#include "narrow/sdf_touch.hpp"
 #include "narrow/support_face.hpp"
 
 namespace carom {
@@ -20,57 +21,44 @@ namespace {
 using Eigen::Vector3d;
 thread_local std::vector<Candidate> found;
 
-/// Point of the other body with the gap to the grid's surface there. Seen from the grid, which is
-/// a.
-struct Touch {
-  Vector3d x = Vector3d::Zero(), normal = Vector3d::UnitZ();
-  double gap = std::numeric_limits<double>::infinity();
-};
-
-Touch touch(const SdfGrid& grid, const Vector3d& x, double radius = 0) {
-  Touch t;
-  Vector3d g;
-  t.gap = grid.sample(x, g) - radius;
-  t.x = x;
-  // No gradient, no direction: on a ridge inside the body. The way from its middle is as good.
-  t.normal = g.norm() > tolerance::sdf_gradient ? g : Vector3d(x - grid.box().centre());
-  t.normal = t.normal.norm() > 0 ? Vector3d(t.normal.normalized()) : Vector3d(Vector3d::UnitZ());
-  return t;
-}
-
 void add(const Touch& t, double radius, std::uint32_t name) {
   found.push_back(
       {t.normal,
        {t.x - (radius + 0.5 * t.gap) * t.normal, t.gap, feature::pair(feature::curve(0), name)}});
 }
 
-/// From a first touch to the nearest pair: to and fro between the other body and the level of the
-/// grid that lies just clear of it. On the level the overlap is a gap, and projections between two
-/// sets that are apart come to rest at their nearest points.
-template <class Closest>
-Touch settle(const SdfGrid& grid, Touch t, const Closest& closest) {
-  const double level = std::min(t.gap, 0.0) - grid.spacing;
-  for (int i = 0; i < tolerance::projections; ++i) {
-    const Touch next = touch(grid, closest(Vector3d(t.x - (t.gap - level) * t.normal)));
-    const double moved = (next.x - t.x).norm();
-    if (!(next.gap <= t.gap + tolerance::sdf_settled * grid.spacing)) break;
-    t = next;
-    if (moved <= tolerance::sdf_settled * grid.spacing) break;
+/// What the two searches found. Where they agree but for the error of the grid they are one point,
+/// which changes from one to the other little by little; the overlap is that of the deeper.
+/// @param on_other  a point of the other body, its distance to the grid
+/// @param on_grid   a point of the zero level, its distance to the other body
+void add_both(const Touch& on_other, const Touch& on_grid, double error, double margin) {
+  Candidate one{on_other.normal,
+                {on_other.x - 0.5 * on_other.gap * on_other.normal, on_other.gap,
+                 feature::pair(feature::curve(0), feature::curve(1))}};
+  Candidate two{-on_grid.normal,
+                {on_grid.x - 0.5 * on_grid.gap * on_grid.normal, on_grid.gap,
+                 feature::pair(feature::curve(0), feature::curve(3))}};
+  const double between = on_grid.gap - on_other.gap;
+  if (std::isfinite(between) && one.normal.dot(two.normal) > 0 &&
+      one.normal.cross(two.normal).norm() < tolerance::similar_normal) {
+    const double share = std::clamp(0.5 + 0.5 * between / error, 0.0, 1.0);
+    one.normal = (share * one.normal + (1 - share) * two.normal).normalized();
+    one.point.position = share * one.point.position + (1 - share) * two.point.position;
+    one.point.separation = std::min(on_other.gap, on_grid.gap);
+    two.point.separation = std::numeric_limits<double>::infinity();
   }
-  return t;
+  for (const Candidate& c : {one, two})
+    if (c.point.separation <= margin) found.push_back(c);
 }
 
-/// Vertices of the zero level within `margin` of a box, by their gap to the other body.
-template <class Gap>
-Vector3d nearest_vertex(const SdfGrid& grid, const Aabb& near, const Gap& gap, double& least) {
-  Vector3d best = Vector3d::Zero();
-  least = std::numeric_limits<double>::infinity();
-  grid.surface->tree.query([&](const Aabb& box) { return box.overlaps(near); },
-                           [&](int f) {
-                             const Vector3d v = grid.surface->corner(f, 0);
-                             if (const double d = gap(v); d < least) least = d, best = v;
-                           });
-  return best;
+double blur(const SdfGrid& grid) {
+  return std::max(grid.error, tolerance::sdf_settled * grid.spacing);
+}
+
+Aabb moved(const Aabb& box, const Frame& frame) {
+  const Vector3d half = 0.5 * frame.rotation.cwiseAbs() * box.extents();
+  const Vector3d centre = frame * box.centre();
+  return {centre - half, centre + half};
 }
 
 /// Where one body holds the other's whole surface within it, no point of a surface overlaps. A way
@@ -116,57 +104,80 @@ Aabb bounds_of(const Convex& body, const Frame& frame) {
 
 }  // namespace
 
+namespace {
+
+/// A ball is its centre and its radius.
+void sdf_ball(const SdfGrid& a, const Vector3d& centre, double radius, double margin) {
+  Touch t = measured(a, touch(a, centre));
+  t.gap -= radius;
+  if (t.gap <= margin) add(t, radius, feature::vertex(1));
+}
+
+}  // namespace
+
 void sdf_convex(const SdfGrid& a, const Convex& b, const Frame& b_in_a, double margin,
                 std::vector<Manifold>& out) {
   found.clear();
   const Aabb near = bounds_of(b, b_in_a);
   if (!near.inflated(margin).overlaps(a.surface->tree.nodes[0].box)) return;
-  const auto gap_to = [&](const Vector3d& q) {
-    return separation(Convex::point(q), b, b_in_a, std::numeric_limits<double>::infinity());
+  if (b.kind == Convex::Kind::points && b.corners().size() == 1) {
+    sdf_ball(a, b_in_a * b.corners()[0], b.radius, margin);
+    return emit(found, tolerance::similar_normal, out);
+  }
+  const double inf = std::numeric_limits<double>::infinity();
+  const auto apart = [&](const Vector3d& q) {
+    return separation(Convex::point(q), b, b_in_a, inf);
   };
-  const auto closest = [&](const Vector3d& q) {
-    const Separation s = gap_to(q);
-    return Vector3d(s.point_b + b.radius * s.normal);  // of the core
+  const auto on_b = [&](Vector3d& q) {
+    q = apart(q).point_b;
+    return true;
   };
-  Touch best = touch(a, b_in_a * b.support(-(b_in_a.rotation.transpose() * b_in_a.translation)));
+  const auto seen_by_a = [&](const Vector3d& x) { return touch(a, x); };
+  const auto seen_by_b = [&](const Vector3d& x) {
+    const Separation s = apart(x);
+    return Touch{x, -s.normal, s.distance};
+  };
+  const auto grown = [&](const Vector3d& n) {  // lowest against a unit n
+    return Vector3d(b_in_a * b.support(-(b_in_a.rotation.transpose() * n)) - b.radius * n);
+  };
+  Touch best;
   const auto offer = [&](const Vector3d& x, std::uint32_t name) {
-    const Touch t = touch(a, x);
+    const Touch t = seen_by_a(x);
     if (t.gap < best.gap) best = t;
-    if (name != 0 && t.gap - b.radius <= margin) {
-      Touch grown = t;
-      grown.gap -= b.radius;
-      add(grown, b.radius, name);
-    }
+    if (name != 0 && t.gap <= margin) add(measured(a, t), 0, name);
+  };
+  // A corner of the core, moved out by the growth towards the grid.
+  const auto corner = [&](const Vector3d& x, std::uint32_t name) {
+    const Vector3d n =
+        b.radius > 0 ? closest_point(*a.surface, x, inf).normal : Vector3d(Vector3d::Zero());
+    offer(x - b.radius * n, name);
   };
   int number = 0;
   if (b.kind == Convex::Kind::box)
     for (int i = 0; i < 8; ++i)
-      offer(b_in_a * Vector3d(i & 1 ? b.size.x() : -b.size.x(), i & 2 ? b.size.y() : -b.size.y(),
-                              i & 4 ? b.size.z() : -b.size.z()),
-            feature::vertex(++number));
-  for (const Vector3d& c : b.corners()) offer(b_in_a * c, feature::vertex(++number));
-  for (int i = 0; i < 27; ++i) {
-    const Vector3d d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    if (i != 13) offer(b_in_a * b.support(d), 0);
+      corner(b_in_a * Vector3d(i & 1 ? b.size.x() : -b.size.x(), i & 2 ? b.size.y() : -b.size.y(),
+                               i & 4 ? b.size.z() : -b.size.z()),
+             feature::vertex(++number));
+  for (const Vector3d& c : b.corners()) corner(b_in_a * c, feature::vertex(++number));
+  for (int i = 0; i < 27; ++i)
+    if (i != 13) offer(grown(Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).normalized()), 0);
+  double least = inf;
+  const Vector3d v = nearest_vertex(
+      a, near.inflated(margin), [&](const Vector3d& q) { return apart(q).distance; }, least);
+  Touch level;
+  if (Vector3d q = v; least < inf && on_b(q)) offer(q, 0);
+  best = settle(a, best, seen_by_a, on_b);
+  best.gap = measured(a, best).gap;  // its gradient is square to the other body
+  if (best.gap <= margin) {
+    thread_local Face patch;
+    support_face(b, -(b_in_a.rotation.transpose() * best.normal), b_in_a, patch);
+    if (patch.points.size() > 2 && !b.is_polyhedral())
+      for (std::size_t i = 0; i < patch.points.size(); ++i)
+        offer(patch.points[i], patch.vertex_features[i]);
   }
-  // A ball needs no more than its centre; others may meet the grid between their corners.
-  const bool ball = b.kind == Convex::Kind::points && b.corners().size() == 1;
-  double least = std::numeric_limits<double>::infinity();
-  if (!ball) {
-    const Vector3d v = nearest_vertex(
-        a, near.inflated(margin), [&](const Vector3d& q) { return gap_to(q).distance; }, least);
-    if (least < std::numeric_limits<double>::infinity()) offer(closest(v), 0);
-    best = settle(a, best, closest);
-    if (best.gap - b.radius <= margin) {
-      thread_local Face patch;
-      support_face(b, -(b_in_a.rotation.transpose() * best.normal), b_in_a, patch);
-      if (patch.points.size() > 2 && !b.is_polyhedral())
-        for (std::size_t i = 0; i < patch.points.size(); ++i)
-          offer(patch.points[i] + b.radius * best.normal, patch.vertex_features[i]);
-      best.gap -= b.radius;
-      add(best, b.radius, feature::curve(1));
-    }
-  }
+  if (least <= margin + a.spacing)
+    level = settle(a, seen_by_b(v), seen_by_b, [&](Vector3d& q) { return onto_level(a, q); });
+  add_both(best, level, blur(a), margin);
   if (found.empty() && least < 0)
     part(a, b_in_a, b_in_a.translation, b.radius, [&](const Vector3d& n) {
       return Vector3d(b_in_a * b.support(-(b_in_a.rotation.transpose() * n)));
@@ -178,71 +189,96 @@ void sdf_surface(const SdfGrid& a, const MeshSurface& b, const Frame& b_in_a, do
                  std::vector<Manifold>& out) {
   found.clear();
   const Frame a_in_b = b_in_a.inverse();
-  const Aabb reach = a.surface->tree.nodes[0].box.inflated(margin);
-  const Vector3d half = 0.5 * a_in_b.rotation.cwiseAbs() * reach.extents();
-  const Vector3d centre = a_in_b * reach.centre();
-  const Aabb near_b{centre - half, centre + half};
+  const double inf = std::numeric_limits<double>::infinity();
+  const Aabb near_b = moved(a.surface->tree.nodes[0].box.inflated(margin), a_in_b);
+  const auto seen_by_a = [&](const Vector3d& x) { return touch(a, x); };
+  const auto seen_by_b = [&](const Vector3d& x) {
+    const SurfacePoint p = closest_point(b, a_in_b * x, inf);
+    return Touch{x, b_in_a.rotation * p.normal, p.distance};
+  };
+  const auto on_b = [&](Vector3d& q) {
+    q = b_in_a * closest_point(b, a_in_b * q, inf).point;
+    return true;
+  };
   Touch best;
   thread_local std::vector<int> vertices;
   vertices.clear();
-  b.tree.query([&](const Aabb& box) { return box.overlaps(near_b); },
-               [&](int f) {
-                 for (int k = 0; k < 3; ++k) vertices.push_back(b.mesh.faces(f, k));
-               });
+  Vector3d unused;
+  b.tree.query(
+      [&](const Aabb& box) {  // no corner in the box is nearer than its middle less its size
+        return box.overlaps(near_b) &&
+               a.sample(b_in_a * box.centre(), unused) - 0.5 * box.extents().norm() <=
+                   margin + a.spacing;
+      },
+      [&](int f) {
+        for (int k = 0; k < 3; ++k) vertices.push_back(b.mesh.faces(f, k));
+      });
   std::ranges::sort(vertices);
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   for (int v : vertices) {
     const Touch t = touch(a, b_in_a * b.vertex(v));
     if (t.gap < best.gap) best = t;
-    if (t.gap <= margin && b.vertex_sharp[v]) add(t, 0, feature::vertex(v));
+    if (t.gap <= margin && b.vertex_sharp[v]) add(measured(a, t), 0, feature::vertex(v));
   }
-  const double inf = std::numeric_limits<double>::infinity();
-  const Aabb& all_b = b.tree.nodes[0].box;
-  const Vector3d half_b = 0.5 * b_in_a.rotation.cwiseAbs() * all_b.extents();
-  const Vector3d centre_b = b_in_a * all_b.centre();
+  const Aabb all_b = moved(b.tree.nodes[0].box, b_in_a);
   double least;
-  const Vector3d q = nearest_vertex(
-      a, Aabb{centre_b - half_b, centre_b + half_b}.inflated(margin),
+  const Vector3d v = nearest_vertex(
+      a, all_b.inflated(margin),
       [&](const Vector3d& x) { return closest_point(b, a_in_b * x, inf).distance; }, least);
-  const auto closest = [&](const Vector3d& x) {
-    return Vector3d(b_in_a * closest_point(b, a_in_b * x, inf).point);
-  };
-  if (least < inf)
-    if (const Touch t = touch(a, closest(q)); t.gap < best.gap) best = t;
-  if (best.gap < inf) {
-    best = settle(a, best, closest);
-    if (best.gap <= margin) add(best, 0, feature::curve(1));
+  Touch level;
+  if (least <= margin + a.spacing) {
+    Vector3d q = v;
+    (void)on_b(q);
+    if (const Touch t = touch(a, q); t.gap < best.gap) best = t;
+    level = settle(a, seen_by_b(v), seen_by_b, [&](Vector3d& x) { return onto_level(a, x); });
   }
+  if (best.gap < inf) best = settle(a, best, seen_by_a, on_b);
+  if (best.gap < inf) best.gap = measured(a, best).gap;
+  add_both(best, level, blur(a), margin);
   if (found.empty() && least < 0 && b.faults.closed())
-    part(a, b_in_a, centre_b, 0, [&](const Vector3d& n) { return lowest_vertex(b, b_in_a, n); });
+    part(a, b_in_a, all_b.centre(), 0,
+         [&](const Vector3d& n) { return lowest_vertex(b, b_in_a, n); });
   emit(found, tolerance::similar_normal, out);
 }
+
+namespace {
+
+/// Deepest point of the zero level of `body` in the other field, in the frame of `field`.
+Touch deepest(const SdfGrid& field, const SdfGrid& body, const Frame& body_in_field,
+              const Frame& field_in_body, double margin, double& least) {
+  const Aabb near = moved(field.surface->tree.nodes[0].box, field_in_body).inflated(margin);
+  Vector3d g;
+  const Vector3d v = nearest_vertex(
+      body, near, [&](const Vector3d& x) { return field.sample(body_in_field * x, g); }, least);
+  if (!(least <= margin + field.spacing + body.spacing)) return {};
+  Touch found = settle(
+      field, touch(field, body_in_field * v), [&](const Vector3d& x) { return touch(field, x); },
+      [&](Vector3d& q) {
+        Vector3d y = field_in_body * q;
+        const bool there = onto_level(body, y);
+        q = body_in_field * y;
+        return there;
+      });
+  found.gap = measured(field, found).gap;
+  return found;
+}
+
+}  // namespace
 
 void sdf_sdf(const SdfGrid& a, const SdfGrid& b, const Frame& b_in_a, double margin,
              std::vector<Manifold>& out) {
   found.clear();
   const Frame a_in_b = b_in_a.inverse();
-  const Aabb& box_b = b.surface->tree.nodes[0].box;
-  const Vector3d half = 0.5 * b_in_a.rotation.cwiseAbs() * box_b.extents();
-  const Vector3d centre = b_in_a * box_b.centre();
-  const Aabb near{centre - half, centre + half};
+  double least_a, least_b;
+  const Touch on_b = deepest(a, b, b_in_a, a_in_b, margin, least_b);
+  Touch on_a = deepest(b, a, a_in_b, b_in_a, margin, least_a);
+  on_a.x = b_in_a * on_a.x;
+  on_a.normal = b_in_a.rotation * on_a.normal;
+  const bool meet = std::min(on_a.gap, on_b.gap) < std::numeric_limits<double>::infinity();
+  if (meet) add_both(on_b, on_a, blur(a) + blur(b), margin);
+  const Vector3d centre = b_in_a * b.surface->tree.nodes[0].box.centre();
   Vector3d unused;
-  double least;
-  const Vector3d q = nearest_vertex(
-      a, near.inflated(margin), [&](const Vector3d& x) { return b.sample(a_in_b * x, unused); },
-      least);
-  if (!(least < std::numeric_limits<double>::infinity())) return;
-  const auto closest = [&](const Vector3d& x) {
-    Vector3d y = a_in_b * x;
-    for (int i = 0; i < 3; ++i) {
-      const Touch t = touch(b, y);
-      y -= t.gap * t.normal;
-    }
-    return Vector3d(b_in_a * y);
-  };
-  const Touch best = settle(a, touch(a, closest(q)), closest);
-  if (best.gap <= margin) add(best, 0, feature::curve(1));
-  if (best.gap > -a.spacing && a.sample(centre, unused) < -a.spacing) {
+  if (meet && std::min(on_a.gap, on_b.gap) > -a.spacing && a.sample(centre, unused) < -a.spacing) {
     found.clear();  // surfaces that lie in one another, or within
     part(a, b_in_a, centre, 0,
          [&](const Vector3d& n) { return lowest_vertex(*b.surface, b_in_a, n); });
@@ -255,28 +291,55 @@ void half_space_sdf(const Vector3d& normal, double offset, const SdfGrid& b, con
   found.clear();
   const Vector3d n = b_in_a.rotation.transpose() * normal;  // in the grid
   const double level = offset - normal.dot(b_in_a.translation);
+  const double reach = std::min(margin, b.spacing);
+  // The patch: of the vertices near the plane, those farthest out in eight directions along it.
+  const Vector3d along = n.unitOrthogonal(), across = n.cross(along);
+  struct Farthest {
+    double far = -std::numeric_limits<double>::infinity(), gap = 0;
+    int vertex = -1;
+  };
+  std::array<Farthest, 8> patch;
   double least = std::numeric_limits<double>::infinity();
   Vector3d lowest = Vector3d::Zero();
-  const auto& s = *b.surface;
-  for (Eigen::Index v = 0; v < s.mesh.vertices.rows(); ++v) {
-    const Vector3d x = s.mesh.vertices.row(v).transpose();
-    const double gap = n.dot(x) - level;
-    if (gap < least) least = gap, lowest = x;
-    if (gap <= margin && gap <= b.spacing)
+  const MeshSurface& s = *b.surface;
+  s.tree.query(
+      [&](const Aabb& box) {
+        const double low = n.dot(box.centre()) - 0.5 * n.cwiseAbs().dot(box.extents()) - level;
+        return low <= std::max(reach, margin + b.spacing);
+      },
+      [&](int f) {
+        for (int c = 0; c < 3; ++c) {
+          const Vector3d x = s.corner(f, c);
+          const double gap = n.dot(x) - level, u = along.dot(x), w = across.dot(x);
+          if (gap < least) least = gap, lowest = x;
+          if (gap > reach) continue;
+          const double directions[8] = {u, -u, w, -w, u + w, -u - w, u - w, w - u};
+          for (int k = 0; k < 8; ++k)
+            if (directions[k] > patch[k].far) patch[k] = {directions[k], gap, s.mesh.faces(f, c)};
+        }
+      });
+  if (least > margin + b.spacing) return;
+  for (const Farthest& p : patch)
+    if (p.vertex >= 0)
       found.push_back({n,
-                       {x - 0.5 * gap * n, gap,
-                        feature::pair(feature::face(0), feature::vertex(static_cast<int>(v)))}});
-  }
-  if (least > margin + b.spacing) {
-    found.clear();
-    return;
-  }
-  const auto closest = [&](const Vector3d& x) { return Vector3d(x - (n.dot(x) - level) * n); };
-  const Touch t = settle(b, touch(b, closest(lowest)), closest);
-  if (t.gap <= margin && t.normal.dot(-n) > tolerance::facing)
-    found.push_back({n,
-                     {t.x - 0.5 * t.gap * t.normal, t.gap,
-                      feature::pair(feature::face(0), feature::curve(1))}});
+                       {s.vertex(p.vertex) - 0.5 * p.gap * n, p.gap,
+                        feature::pair(feature::face(0), feature::vertex(p.vertex))}});
+  const auto foot = [&](Vector3d& x) {
+    x -= (n.dot(x) - level) * n;
+    return true;
+  };
+  const auto over = [&](const Vector3d& x) { return Touch{x, n, n.dot(x) - level}; };
+  Vector3d under = lowest;
+  (void)foot(under);
+  const Touch inside =
+      settle(b, touch(b, under), [&](const Vector3d& x) { return touch(b, x); }, foot);
+  const Touch deep = settle(b, over(lowest), over, [&](Vector3d& x) { return onto_level(b, x); });
+  // The plane gives the normal; its own search counts where the grid's gradient says the same.
+  const bool faces = inside.normal.dot(-n) > tolerance::facing;
+  const double gap = faces ? std::min(inside.gap, deep.gap) : deep.gap;
+  if (gap <= margin)
+    found.push_back(
+        {n, {deep.x - 0.5 * gap * n, gap, feature::pair(feature::face(0), feature::curve(1))}});
   const std::size_t begin = out.size();
   emit(found, tolerance::same_normal, out);
   for (std::size_t i = begin; i < out.size(); ++i) {  // worked out in the grid's frame

@@ -68,11 +68,9 @@ Scene slide(const Floor& floor, const Shape& shape, const Vector3d& position,
   return scene;
 }
 
+/// @param limit  m/s and m, by which a mesh may differ from a plane
 void expect_as_on_a_plane(const Shape& shape, const Vector3d& position, const Vector3d& velocity,
-                          const Vector3d& spin) {
-  // The default stops a direct solve at 1e-7 m/s, which would hide what is looked for.
-  SimulationOptions options;
-  options.contact.tolerance = 1e-12;
+                          const Vector3d& spin, const SimulationOptions& options, double limit) {
   for (const Floor& floor : floors()) {
     Simulation on_plane(slide({"plane", Plane{}, {}}, shape, position, velocity, spin), options);
     Simulation on_mesh(slide(floor, shape, position, velocity, spin), options);
@@ -84,21 +82,46 @@ void expect_as_on_a_plane(const Shape& shape, const Vector3d& position, const Ve
       strays =
           std::max(strays, (on_mesh.states().position[1] - on_plane.states().position[1]).norm());
     }
-    EXPECT_LT(bump, no_bump) << floor.name << ' ' << name_of(shape);
-    EXPECT_LT(strays, no_bump) << floor.name << ' ' << name_of(shape);
+    EXPECT_LT(bump, limit) << floor.name << ' ' << name_of(shape);
+    EXPECT_LT(strays, limit) << floor.name << ' ' << name_of(shape);
     // It did cross edges: more than a metre, cells being half a metre wide.
     EXPECT_GT((on_mesh.states().position[1] - position).head<2>().norm(), 1.0) << floor.name;
   }
 }
 
+void roll(const SimulationOptions& options, double limit) {
+  expect_as_on_a_plane(Sphere{0.3}, {-2.03, -1.01, 0.3}, {1.2, 0.5, 0}, {-0.5 / 0.3, 1.2 / 0.3, 0},
+                       options, limit);
+}
+
+void slide_along(const SimulationOptions& options, double limit) {
+  expect_as_on_a_plane(Box{{0.6, 0.5, 0.2}}, {-2.03, -1.01, 0.1}, {3.0, 1.3, 0}, {0, 0, 0}, options,
+                       limit);
+}
+
+/// The default stops a direct solve at 1e-7 m/s, which would hide what is looked for.
+SimulationOptions to_rounding() {
+  SimulationOptions options;
+  options.contact.tolerance = 1e-12;
+  return options;
+}
+
 }  // namespace
 
 TEST(InternalEdges, DoNotBumpARollingBall) {
-  expect_as_on_a_plane(Sphere{0.3}, {-2.03, -1.01, 0.3}, {1.2, 0.5, 0}, {-0.5 / 0.3, 1.2 / 0.3, 0});
+  roll(to_rounding(), no_bump);
 }
 
 TEST(InternalEdges, DoNotBumpASlidingBox) {
-  expect_as_on_a_plane(Box{{0.6, 0.5, 0.2}}, {-2.03, -1.01, 0.1}, {3.0, 1.3, 0}, {0, 0, 0});
+  slide_along(to_rounding(), no_bump);
+}
+
+TEST(InternalEdges, ShowNothingBeyondWhatTheDefaultSolveLeaves) {
+  // Its tolerance is the speed to which the solver settles each contact; the points of a mesh come
+  // in another order than those of a plane, so that is where the two may stop apart.
+  const SimulationOptions options;
+  roll(options, options.contact.tolerance);
+  slide_along(options, options.contact.tolerance);
 }
 
 TEST(NearCoplanarTriangles, AreOnePatchAsAPlaneIs) {

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Distance grids: the two searches of a pair are joined, whichever body comes first, and the sweep
+// follows a grid that touches without asking at every gap.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "carom/geometry/sdf.hpp"
+#include "carom/narrow/first_contact.hpp"
+#include "carom/numerics/tolerance.hpp"
+
+#include "shapes_for_tests.hpp"
+
+namespace carom::testing {
+namespace {
+
+using Eigen::Vector3d;
+using Status = FirstContact::Status;
+constexpr double spacing = 0.02;
+
+Shape grid_of(const SdfGrid::Distance& distance, const Vector3d& half) {
+  return Sdf{
+      std::make_shared<const SdfGrid>(SdfGrid::from_function(distance, {-half, half}, spacing))};
+}
+
+Shape ball_grid(double radius) {
+  return grid_of([=](const Vector3d& p) { return p.norm() - radius; }, Vector3d::Constant(radius));
+}
+
+Shape block_grid(const Vector3d& half) {
+  const auto distance = [=](const Vector3d& p) {
+    const Vector3d q = p.cwiseAbs() - half;
+    return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);
+  };
+  return grid_of(distance, half);
+}
+
+struct Deepest {
+  double gap = std::numeric_limits<double>::infinity();
+  Vector3d normal = Vector3d::Zero();
+};
+
+Deepest deepest_of(const Shape& a, const Pose& pa, const Shape& b, const Pose& pb) {
+  Deepest out;
+  for (const Manifold& m : contacts(a, pa, b, pb, 0.02))
+    for (int k = 0; k < m.count; ++k)
+      if (m.points[k].separation < out.gap) out = {m.points[k].separation, m.normal};
+  return out;
+}
+
+BodyPath path_of(const Vector3d& at, const Vector3d& v, const Vector3d& w = Vector3d::Zero()) {
+  BodyPath path;
+  path.centre = at;
+  path.velocity = v;
+  path.arcs = {{0, Eigen::Quaterniond::Identity(), w}};
+  return path;
+}
+
+TEST(TwoGrids, OfBallsOverlapAsTheBallsDo) {
+  std::mt19937_64 random(3);
+  const Shape big = ball_grid(0.4), small = ball_grid(0.3);
+  for (int i = 0; i < 50; ++i) {
+    const Pose at = random_pose(random, 0.2);
+    Pose there = random_pose(random);
+    const double gap = std::uniform_real_distribution<double>(-0.05, 0.015)(random);
+    const Vector3d n = random_vector(random).normalized();
+    there.position = at.position + (0.7 + gap) * n;
+    const Deepest one = deepest_of(big, at, small, there), two = deepest_of(small, there, big, at);
+    // 3/128 h^4 |d4 phi|, which is at most 9 / r^3 of a sphere: 1.3e-6 of the small one at its
+    // worst, along a diagonal; a millionth and a half for both.
+    EXPECT_NEAR(one.gap, gap, 1.5e-6);
+    // The same two searches, joined by no order of the two.
+    EXPECT_NEAR(one.gap, two.gap, 1e-12);
+    EXPECT_LT((one.normal + two.normal).norm(), 1e-9);
+    // Slopes of the cubics are off by h^3/12 |d4 phi| along an axis, 3.9e-4 at 0.25 m from the
+    // middle of the small ball, and all three axes at once by 1.7 times that.
+    EXPECT_LT((one.normal - n).norm(), 7e-4);
+  }
+}
+
+TEST(ABlockGrid, PokesIntoABoxByItsCorner) {
+  // Down its diagonal onto the middle of a face: the corner of the field is the deepest point, and
+  // the box face reaches less far into the field. The corner of the field by halving along the
+  // diagonal, on which it lies by symmetry.
+  const Shape block = block_grid(Vector3d::Constant(0.25)), box = Box{{2, 2, 1}};
+  const SdfGrid& grid = *std::get<Sdf>(block).grid;
+  const Vector3d diagonal = Vector3d::Ones().normalized();
+  double low = 0.3, high = 0.5;
+  Vector3d unused;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (grid.sample(middle * diagonal, unused) > 0 ? high : low) = middle;
+  }
+  Pose pose;
+  pose.orientation = Eigen::Quaterniond::FromTwoVectors(diagonal, -Vector3d::UnitZ());
+  for (const double gap : {-0.05, -0.01, 0.01}) {
+    pose.position = {0.1, 0.2, 0.5 + low + gap};
+    const Deepest one = deepest_of(box, {}, block, pose), two = deepest_of(block, pose, box, {});
+    EXPECT_NEAR(one.gap, gap, 1e-6);  // what is promised of grids
+    EXPECT_NEAR(one.gap, two.gap, 1e-12);
+    EXPECT_NEAR(one.normal.z(), 1, 1e-9);
+  }
+}
+
+TEST(ABlockGrid, IsFollowedByFewLooksOnceItRests) {
+  const Shape block = block_grid({0.25, 0.25, 0.25}), floor = Box{{10, 10, 1}};
+  // Sliding 5 mm while it lies on the floor: half a cell takes one look, and one is for the start.
+  const FirstContact r = first_contact(floor, path_of({0, 0, -0.5}, {0, 0, 0}), block,
+                                       path_of({0, 0, 0.25}, {0.3, 0, 0}), 0, 1.0 / 60);
+  EXPECT_EQ(r.status, Status::clear);
+  EXPECT_LE(r.queries, 2);
+}
+
+TEST(ABlockGrid, IsHeldByAPlateItTouchesHoweverFast) {
+  // A plate of five cells, touched, then run through at 300 m/s: 5 m in a step.
+  const Shape plate = block_grid({0.6, 0.6, 0.05}), ball = Sphere{0.1};
+  const FirstContact r = first_contact(plate, path_of({0, 0, 0}, {0, 0, 0}), ball,
+                                       path_of({0.1, 0.2, 0.15}, {0, 0, -300}), 0, 1.0 / 60);
+  ASSERT_EQ(r.status, Status::contact);
+  // No deeper than a touching pair may come nearer, and the last halving of a look of 0.01 m.
+  EXPECT_LE(300 * r.time, tolerance::sweep_slop + 0.01 / 65536 + 1e-9);
+  EXPECT_NEAR(r.normal.z(), 1, 1e-6);
+}
+
+}  // namespace
+}  // namespace carom::testing
