@@ -27,11 +27,22 @@ struct Test {
   Vector3d to_body(const Vector3d& direction) const {
     return frame.rotation.transpose() * direction;
   }
-  /// A point of the core, if the surface nearest to it faces along n.
-  bool hold(const Vector3d& core_point, const Vector3d& n, std::uint32_t name) const {
+  /// A point of the core, if the surface nearest to it faces along n; or if it lies in front of the
+  /// face and its foot on it, as in a corner, where several faces are about equally near.
+  bool hold(int f, const Vector3d& core_point, const Vector3d& n, std::uint32_t name) const {
     const double reach = margin + body.radius + range;
-    const SurfacePoint q = closest_point(surface, core_point, reach);
-    if (q.face < 0 || (q.normal - n).norm() > tolerance::flat_bend) return false;
+    SurfacePoint q = closest_point(surface, core_point, reach);
+    if (q.face < 0) return false;
+    if ((q.normal - n).norm() > tolerance::flat_bend) {
+      const double height = n.dot(core_point - surface.corner(f, 0));
+      if (!(height > 0)) return false;
+      const Vector3d foot = core_point - height * n;
+      q = closest_point(surface, foot, reach);
+      const double rounding = tolerance::inside_polygon * (height + foot.norm());
+      if (q.face < 0 || std::abs(q.distance) > rounding) return false;
+      if ((q.normal - n).norm() > tolerance::flat_bend) return false;
+      q.distance = height;
+    }
     const double gap = q.distance - body.radius;
     if (gap <= margin)
       out.push_back({n,
@@ -45,10 +56,10 @@ struct Test {
     const Vector3d down = -to_body(n), tip = frame * body.support(down);
     const double gap = n.dot(tip - surface.corner(f, 0)) - body.radius;
     if (gap > margin || gap < -range) return;
-    hold(tip, n, feature::curve(6));
+    hold(f, tip, n, feature::curve(6));
     support_face(body, down, frame, patch);
     for (std::size_t i = 0; i < patch.points.size() && patch.points.size() > 1; ++i)
-      hold(patch.points[i] + body.radius * n, n, patch.vertex_features[i]);
+      hold(f, patch.points[i] + body.radius * n, n, patch.vertex_features[i]);
   }
   void edge(int e) const {
     const auto& edge = surface.edges[e];

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Open meshes: sheets of no thickness hold a body on the side its centre lies on, whatever way
 // their faces are wound. Closed meshes stay solid.
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "carom/geometry/mesh_surface.hpp"
@@ -182,4 +185,32 @@ TEST(Sheet, CarriesABallAndABoxFromEitherSide) {
         EXPECT_NEAR(simulation.states().position[row].z(), side * 0.1, 5e-4)
             << "up " << up << " g " << g << " row " << row;
     }
+}
+
+// A capsule stands in a pyramid of three sheets upside down: its lower end is about equally near to
+// all of them. Were it held by the nearest alone, it would be pushed through the other two.
+TEST(Sheet, ACornerHoldsTheEndOfACapsuleWithEverySide) {
+  TriangleMesh m;
+  m.vertices.resize(4, 3);
+  m.vertices << 0, 0, 0, 2, 0, 1, -1, 1.8, 1, -1, -1.7, 1;
+  m.faces.resize(3, 3);
+  m.faces << 0, 1, 2, 0, 2, 3, 0, 3, 1;
+  const Shape pyramid = Mesh(m), capsule = Capsule{0.1, 0.5};
+  const MeshSurface& surface = *std::get<Mesh>(pyramid).surface;
+  for (const Vector3d& aside :
+       {Vector3d(0, 0, 0), Vector3d(1e-3, 0, 0), Vector3d(-1e-3, 2e-3, 0)}) {
+    const Vector3d end = Vector3d(0, 0, 0.13) + aside;
+    std::vector<Manifold> found;
+    collide(pyramid, {}, capsule, {.position = end + Vector3d(0, 0, 0.25)}, 0.05, found);
+    for (int f = 0; f < 3; ++f) {
+      const Vector3d n = surface.face_normals[f];
+      const double gap = n.dot(end) - 0.1;
+      ASSERT_LT(gap, 0.05);
+      const bool held = std::ranges::any_of(found, [&](const Manifold& manifold) {
+        return (manifold.normal - n).norm() < exact &&
+               std::abs(manifold.points[0].separation - gap) < exact;
+      });
+      EXPECT_TRUE(held) << f;
+    }
+  }
 }
