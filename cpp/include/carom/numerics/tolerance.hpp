@@ -309,8 +309,8 @@ inline constexpr double sweep_deepest_share = 0.1;
 /// jammed for a minute at 60 Hz sinks 36 um by it.
 inline constexpr double sweep_least_slop = 1e-3;
 
-/// The largest gap at which a hit leaves two bodies, m: it is called between sweep_clear and half as
-/// much again. What is farther apart and comes near flew there, however small the gap.
+/// The largest gap at which a hit leaves two bodies, m: it is called between sweep_clear and half
+/// as much again. What is farther apart and comes near flew there, however small the gap.
 inline constexpr double sweep_leaves = 1.5 * sweep_clear;
 
 /// Contact points farther apart than this are left to the sweep where a body is fast, m: more than
