@@ -42,14 +42,18 @@ Motion motion_of(const World& world, int i, double t) {
 }
 
 /// Pairs whose contacts the solver has, and those that were far apart, need no look while they move
-/// little against each other; a body that was hit may have come near others since.
+/// little against each other; a body that was hit may have come near others since, and be thrown
+/// through what it rests on, where that is thinner than it moves.
 bool goes_without(const World& world, int a, int b, double t) {
   const SweepWork& w = world.sweep;
-  if (is_fast(world, a, b, motion_of(world, a, t), motion_of(world, b, t))) return false;
+  const Motion of_a = motion_of(world, a, t), of_b = motion_of(world, b, t);
+  if (is_fast(world, a, b, of_a, of_b)) return false;
   const BodyPair pair{a, b};
   const bool was_hit = w.version[a] != 0 || w.version[b] != 0;
   if (std::ranges::binary_search(w.kept, pair))
-    return !was_hit || !std::ranges::binary_search(w.free, pair);
+    return !was_hit || !(std::ranges::binary_search(w.free, pair) ||
+                         (of_b.way - of_a.way).norm() >
+                             std::min(w.thickness[a], w.thickness[b]) + tolerance::sweep_deepest);
   return !was_hit && !std::ranges::binary_search(w.left, pair);
 }
 
