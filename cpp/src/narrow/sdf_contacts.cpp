@@ -251,7 +251,7 @@ Touch deepest(const SdfGrid& field, const SdfGrid& body, const Frame& body_in_fi
   const Vector3d v = nearest_vertex(
       body, near, [&](const Vector3d& x) { return field.sample(body_in_field * x, g); }, least);
   if (!(least <= margin + field.spacing + body.spacing)) return {};
-  Touch found = settle(
+  Touch low = settle(
       field, touch(field, body_in_field * v), [&](const Vector3d& x) { return touch(field, x); },
       [&](Vector3d& q) {
         Vector3d y = field_in_body * q;
@@ -259,8 +259,8 @@ Touch deepest(const SdfGrid& field, const SdfGrid& body, const Frame& body_in_fi
         q = body_in_field * y;
         return there;
       });
-  found.gap = measured(field, found).gap;
-  return found;
+  low.gap = measured(field, low).gap;
+  return low;
 }
 
 }  // namespace

@@ -100,8 +100,8 @@ TEST(FirstContact, EachPartOfABodyIsFollowedToTheFirstContactOfAny) {
   const Shape ground = Mesh(m);
   const Vector3d velocity(180, 0, -10);
   for (const double low : {-0.05, -0.15, -0.3}) {  // m, by how much the second part hangs lower
-    const Shape body = Compound({{Sphere{0.05}, {.position = {0, 0, 0}}},
-                                 {Sphere{0.05}, {.position = {0.2, 0.1, low}}}});
+    const Shape body = Compound(
+        {{Sphere{0.05}, {.position = {0, 0, 0}}}, {Sphere{0.05}, {.position = {0.2, 0.1, low}}}});
     const BodyPath path = path_of({1, 10, 1.0}, velocity);
     const FirstContact r = first_contact(ground, path_of({0, 0, 0}), body, path, 0, 0.1);
     ASSERT_EQ(r.status, Status::contact) << low;

@@ -75,9 +75,8 @@ void warm_start(World& world) {
 /// Whether all points of the pair at hand are apart, and it would bounce.
 bool bounces_freely(const World& world, double restitution) {
   return restitution > 0 && std::ranges::all_of(world.manifolds, [](const Manifold& m) {
-           return std::all_of(m.points.begin(), m.points.begin() + m.count, [](const auto& p) {
-             return p.separation > tolerance::sweep_touch;
-           });
+           return std::all_of(m.points.begin(), m.points.begin() + m.count,
+                              [](const auto& p) { return p.separation > tolerance::sweep_touch; });
          });
 }
 
