@@ -87,7 +87,7 @@ struct Search {
 
   /// The world box that a leaf sweeps from t0 to t1.
   static Aabb swept(const Leaf& leaf, const BodyPath& path, double t0, double t1) {
-    return path.centre_bounds(t0, t1).inflated(leaf.radius + tolerance::sweep_clear);
+    return path.centre_bounds(t0, t1).inflated(leaf.radius + 2 * tolerance::sweep_clear);
   }
 
   [[nodiscard]] double spin_of(const BodyPath& path) const {
@@ -104,8 +104,9 @@ struct Search {
         const Vector3d d = sign * frame.rotation.row(i).transpose();
         (sign < 0 ? box.lower : box.upper)[i] = (frame * part.convex.support(d))[i];
       }
+    // As far as a gap is asked for: what a hit leaves must be found again.
     return box.inflated(part.convex.radius + way(*part.path, part.arm, t0, t1) +
-                        tolerance::sweep_clear);
+                        2 * tolerance::sweep_clear);
   }
 
   static Aabb intersection(const Aabb& a, const Aabb& b) {
