@@ -88,12 +88,39 @@ struct VertexTest {
                    {x - 0.5 * q.distance * q.normal, q.distance,
                     t_is_a ? feature::pair(q.feature, fs) : feature::pair(fs, q.feature)}});
   }
+  /// Behind a crease the nearest point is the crease itself, and one contact towards it would let
+  /// the vertex slide on through either face: each that it is behind holds it.
+  bool crease(int v, const Vector3d& x, const SurfacePoint& q, std::vector<Candidate>& out) const {
+    if (!(q.distance < 0) || q.feature == feature::face(t.face_cluster[q.face])) return false;
+    const Vector3d& at = q.point;
+    const std::size_t begin = out.size();
+    t.tree.query(
+        [&](const Aabb& box) { return squared_distance(box, at) <= q.distance * q.distance; },
+        [&](int f) {
+          const int cluster = t.face_cluster[f];
+          const Vector3d& n = t.face_normals[cluster];
+          const Vector3d origin = t.corner(f, 0);
+          const double height = n.dot(x - origin);
+          if (n.isZero(0) || !(height < 0)) return;
+          const TrianglePoint touch = closest_point(at, origin, t.corner(f, 1), t.corner(f, 2));
+          const double size = (t.corner(f, 1) - origin).norm() + (t.corner(f, 2) - origin).norm();
+          if ((touch.point - at).norm() > tolerance::inside_polygon * size) return;
+          if (!in_cone_of_vertex(s, v, -(s_in_t.rotation.transpose() * n),
+                                 tolerance::similar_normal))
+            return;
+          for (std::size_t i = begin; i < out.size(); ++i)
+            if ((out[i].normal - (t_is_a ? n : Vector3d(-n))).norm() <= tolerance::flat_bend)
+              return;
+          add(v, x, {f, height, x - height * n, n, feature::face(cluster)}, out);
+        });
+    return out.size() > begin;
+  }
   void run(const std::vector<int>& vertices, std::vector<Candidate>& out) const {
     for (int v : vertices) {
       const Vector3d x = s_in_t * s.vertex(v);
       if (squared_distance(t.tree.nodes[0].box, x) > margin * margin) continue;
       SurfacePoint q = closest_point(t, x, reach);
-      if (q.face < 0 || q.distance > margin) continue;
+      if (q.face < 0 || q.distance > margin || crease(v, x, q, out)) continue;
       // Faces that bend a little are one plane, whose points share a manifold.
       if (q.feature == feature::face(t.face_cluster[q.face]))
         q.normal = t.face_normals[t.face_cluster[q.face]];
