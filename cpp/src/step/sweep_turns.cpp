@@ -29,7 +29,8 @@ bool turns_through(const World& world, int a, int b, const Vector3d& turn_a,
   double way = 0;
   for (const int row : {a, b})
     if (world.states.moves[row]) way += unseen(turn, w.turning_radius[row]);
-  return way > std::min(w.thickness[a], w.thickness[b]) + tolerance::sweep_deepest;
+  // Half of what may go unseen: the pair may overlap by the other half before.
+  return way > std::min(w.thickness[a], w.thickness[b]) + 0.5 * tolerance::sweep_deepest;
 }
 
 bool mark_turned(World& world) {

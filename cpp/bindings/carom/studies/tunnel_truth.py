@@ -76,7 +76,7 @@ def fly(run: Run) -> Counter:
             counts["seen_twice"] += not wrong
             break
     deepest = max(judge.deepest for judge in run.judges)
-    counts["deeper_than_0.1_mm"] += deepest > DEEP
+    counts["deeper_than_0.1_mm"] += bool(deepest > DEEP)
     report = simulation.report
     counts["frozen"] += bool(report.frozen)
     counts["in_which_a_body_waited"] += report.sweep.waited > 0
