@@ -88,39 +88,104 @@ struct VertexTest {
                    {x - 0.5 * q.distance * q.normal, q.distance,
                     t_is_a ? feature::pair(q.feature, fs) : feature::pair(fs, q.feature)}});
   }
+  bool has(const Vector3d& n, std::size_t begin, const std::vector<Candidate>& out) const {
+    const Vector3d along = t_is_a ? n : Vector3d(-n);
+    return std::any_of(
+        out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(),
+        [&](const Candidate& c) { return (c.normal - along).norm() <= tolerance::flat_bend; });
+  }
+  /// Whether the body of the vertex lies on the far side of it, seen from a face.
+  bool points_at(int v, const Vector3d& n) const {
+    return in_cone_of_vertex(s, v, -(s_in_t.rotation.transpose() * n), tolerance::similar_normal);
+  }
+  /// Calls hold(face, height, normal) for what the vertex at x may meet within `far`.
+  template <class Hold>
+  void faces_near(const Vector3d& x, double far, const Hold& hold) const {
+    t.tree.query([&](const Aabb& box) { return squared_distance(box, x) <= far * far; },
+                 [&](int f) {
+                   const Vector3d& n = t.face_normals[t.face_cluster[f]];
+                   const double height = n.dot(x - t.corner(f, 0));
+                   if (!n.isZero(0)) hold(f, height, n);
+                 });
+  }
+  bool on_face(int f, const Vector3d& point) const {
+    const Vector3d p = t.corner(f, 0), q = t.corner(f, 1), r = t.corner(f, 2);
+    const double size = (q - p).norm() + (r - p).norm();
+    return (closest_point(point, p, q, r).point - point).norm() <= tolerance::inside_polygon * size;
+  }
+  /// Whether x lies over the face, or beside it past a crease: there its plane goes on behind the
+  /// next face, and what crosses that face's end would cross the plane too.
+  bool over(int f, const Vector3d& x) const {
+    const auto bend = [&](int k) {
+      const int e = t.face_edges[f][k];
+      return e < 0 ? Bend::convex : t.edges[e].bend;
+    };
+    const TrianglePoint near = closest_point(x, t.corner(f, 0), t.corner(f, 1), t.corner(f, 2));
+    switch (near.feature) {
+      case TriangleFeature::face:
+        return true;
+      case TriangleFeature::edge0:
+        return bend(0) == Bend::concave;
+      case TriangleFeature::edge1:
+        return bend(1) == Bend::concave;
+      case TriangleFeature::edge2:
+        return bend(2) == Bend::concave;
+      case TriangleFeature::corner0:
+        return bend(2) == Bend::concave && bend(0) == Bend::concave;
+      case TriangleFeature::corner1:
+        return bend(0) == Bend::concave && bend(1) == Bend::concave;
+      case TriangleFeature::corner2:
+        return bend(1) == Bend::concave && bend(2) == Bend::concave;
+    }
+    return false;
+  }
   /// Behind a crease the nearest point is the crease itself, and one contact towards it would let
   /// the vertex slide on through either face: each that it is behind holds it.
   bool crease(int v, const Vector3d& x, const SurfacePoint& q, std::vector<Candidate>& out) const {
     if (!(q.distance < 0) || q.feature == feature::face(t.face_cluster[q.face])) return false;
-    const Vector3d& at = q.point;
     const std::size_t begin = out.size();
-    t.tree.query(
-        [&](const Aabb& box) { return squared_distance(box, at) <= q.distance * q.distance; },
-        [&](int f) {
-          const int cluster = t.face_cluster[f];
-          const Vector3d& n = t.face_normals[cluster];
-          const Vector3d origin = t.corner(f, 0);
-          const double height = n.dot(x - origin);
-          if (n.isZero(0) || !(height < 0)) return;
-          const TrianglePoint touch = closest_point(at, origin, t.corner(f, 1), t.corner(f, 2));
-          const double size = (t.corner(f, 1) - origin).norm() + (t.corner(f, 2) - origin).norm();
-          if ((touch.point - at).norm() > tolerance::inside_polygon * size) return;
-          if (!in_cone_of_vertex(s, v, -(s_in_t.rotation.transpose() * n),
-                                 tolerance::similar_normal))
+    faces_near(
+        x, -q.distance * (1 + tolerance::inside_polygon),
+        [&](int f, double height, const Vector3d& n) {
+          if (!(height < 0) || !on_face(f, q.point) || !points_at(v, n) || has(n, begin, out))
             return;
-          for (std::size_t i = begin; i < out.size(); ++i)
-            if ((out[i].normal - (t_is_a ? n : Vector3d(-n))).norm() <= tolerance::flat_bend)
-              return;
-          add(v, x, {f, height, x - height * n, n, feature::face(cluster)}, out);
+          add(v, x, {f, height, x - height * n, n, feature::face(t.face_cluster[f])}, out);
         });
     return out.size() > begin;
   }
+  /// Where a surface bends towards the vertex, as a corner does, faces farther off than the nearest
+  /// are met in the same step. Those it does not point at go to `spare`.
+  void beside(int v, const Vector3d& x, std::size_t begin, std::vector<Candidate>& out,
+              std::vector<Candidate>& spare) const {
+    if (t.polytope) return;
+    faces_near(x, margin, [&](int f, double height, const Vector3d& n) {
+      if (!(height > 0 && height <= margin) || !over(f, x) || has(n, begin, out)) return;
+      add(v, x, {f, height, x - height * n, n, feature::face(t.face_cluster[f])},
+          points_at(v, n) ? out : spare);
+    });
+  }
+  /// A face that no vertex points at, as one that points at it lies beside it, is met by the
+  /// nearest of those that lie above it.
+  void take_spare(std::vector<Candidate>& spare, std::size_t begin,
+                  std::vector<Candidate>& out) const {
+    std::ranges::sort(spare, {}, [](const Candidate& c) { return c.point.separation; });
+    for (const Candidate& c : spare)
+      if (!has(t_is_a ? c.normal : Vector3d(-c.normal), begin, out)) out.push_back(c);
+  }
   void run(const std::vector<int>& vertices, std::vector<Candidate>& out) const {
+    thread_local std::vector<Candidate> spare;
+    spare.clear();
+    const std::size_t first = out.size();
     for (int v : vertices) {
       const Vector3d x = s_in_t * s.vertex(v);
       if (squared_distance(t.tree.nodes[0].box, x) > margin * margin) continue;
       SurfacePoint q = closest_point(t, x, reach);
-      if (q.face < 0 || q.distance > margin || crease(v, x, q, out)) continue;
+      if (q.face < 0 || q.distance > margin) continue;
+      const std::size_t begin = out.size();
+      if (crease(v, x, q, out)) {
+        beside(v, x, begin, out, spare);
+        continue;
+      }
       // Faces that bend a little are one plane, whose points share a manifold.
       if (q.feature == feature::face(t.face_cluster[q.face]))
         q.normal = t.face_normals[t.face_cluster[q.face]];
@@ -130,7 +195,9 @@ struct VertexTest {
                              tolerance::similar_normal))
         q = way_out(s, v, s_in_t, t, x, margin, range);
       if (q.face >= 0) add(v, x, q, out);
+      beside(v, x, begin, out, spare);
     }
+    take_spare(spare, first, out);
   }
   /// The vertex deepest inside, whatever way its body lies.
   void deepest(const std::vector<int>& vertices, std::vector<Candidate>& out) const {

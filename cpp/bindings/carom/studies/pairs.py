@@ -270,6 +270,10 @@ def run(progress: Progress | None = None, trials: int = 24, seed: int = 29) -> l
     return rows
 
 
+def _short(x: float) -> str:
+    return f"{x / 1000:.0f}k" if x >= 1000 else f"{x:.0f}" if x >= 10 else f"{x:.2g}"
+
+
 def as_text(rows: list[Row]) -> str:
     """A line per pair, its largest figures; `!` where the depth is off by more than allowed."""
     from carom.commands.output import table
@@ -305,13 +309,13 @@ def plot(rows: list[Row], path: Path | str) -> None:
     figure, panels = plt.subplots(1, 2, figsize=(15, 7), layout="constrained")
     shown = (
         (panels[0], np.log10(error), "log10 of the largest error of the depth, m", "viridis_r"),
-        (panels[1], np.log10(microseconds), "time of a pair, µs", "cividis_r"),
+        (panels[1], np.log10(microseconds), "time of a pair, µs (k: thousand)", "cividis_r"),
     )
     for panel, values, title, colours in shown:
         panel.imshow(values, cmap=colours)
         middle = np.nanmean([np.nanmin(values), np.nanmax(values)])
         for j, i in np.argwhere(np.isfinite(values)):
-            text = f"{values[j, i]:.0f}" if panel is panels[0] else f"{10 ** values[j, i]:.2g}"
+            text = f"{values[j, i]:.0f}" if panel is panels[0] else _short(10 ** values[j, i])
             colour = "white" if values[j, i] > middle else "black"
             panel.text(i, j, text, ha="center", va="center", fontsize=8, color=colour)
         panel.set_xticks(range(len(names)), names, rotation=60, ha="right")
