@@ -146,8 +146,22 @@ def test_what_is_hit_again_after_it_passed_is_looked_at_twice():
     assert sum(counts["seen_twice"] for counts in flown) == 0
 
 
-def test_what_crossed_once_does_not_again(index):
-    counts = tunnel_truth.fly(make_run(SEED, index))
+@pytest.mark.parametrize(
+    ("seed", "index"),
+    [
+        (SEED, 293),  # a slow turn brought a corner down that the contacts did not know
+        (SEED, 524),  # the rest of a way was dropped once another part had a hit
+        (SEED, 1872),  # an end of a capsule in a corner was held by one face of it
+        (SEED, 3197),
+        (SEED, 5255),  # a hit within the step threw it through a thin wall it rested on
+        (SEED, 5475),  # behind a crease one contact let a hull slide through either face
+        (SEED, 8656),  # a rim rolled 1.3 mm into a sheet within one step
+        (7, 2130),  # past a crease the plane of the next face was not seen
+        (7, 8046),
+    ],
+)
+def test_what_crossed_once_does_not_again(seed, index):
+    counts = tunnel_truth.fly(make_run(seed, index))
     assert counts["crossed"] == counts["not_finite"] == 0
 
 
