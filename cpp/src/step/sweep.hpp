@@ -82,6 +82,15 @@ struct Motion {
 /// Marks as fast what the solver has turned like that. True when there is any.
 bool mark_turned(World& world);
 
+/// Bodies whose motion in this step the pair stage did not foresee, as contacts pushed them farther
+/// than their box there allows, stand in its tree with the way they took.
+void foresee(World& world);
+/// Asks about every two of which one is fast, and whose ways may cross.
+void ask_all(World& world);
+/// Asks again, from time t, about everything a body with a new path may meet;
+/// `done` was asked already.
+void ask_about(World& world, int row, int done, double t);
+
 /// No path is known yet.
 void begin_paths(World& world);
 /// Path of one body from its states before and after the integration, where it is not known.
