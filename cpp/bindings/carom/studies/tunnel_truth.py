@@ -31,31 +31,34 @@ DEEP = 1e-4
 """m. Overlaps above this are counted, as the mark for a spinning rod is 0.1 mm."""
 
 
-FINER, SAME_PLACE = 256, 1e-3
-"""Steps of the second look per step of the run, and how near, relative to the way between two
-bodies, it has to end to where the run was."""
+FINER, SAME_PLACE = 256, 0.5
+"""Steps of the second look per step of the run, and how near it has to end to where the run was,
+relative to the distance two bodies must keep as they pass: on the other side they would be that
+distance away at least."""
 
 
-def confirmed(run: Run, simulation: Simulation, steps: int) -> bool:
-    """Whether two bodies did pass through each other that seem to.
+def confirmed(run: Run, simulation: Simulation, before: bytes) -> bool:
+    """Whether two bodies did pass through each other that seem to, in the step from `before` on.
 
     Their judge sees where they are after each step and goes back along the last straight piece of
     their paths. Where they were hit again after they had passed beside each other, that piece tells
-    nothing of how they passed. So the run is flown again in short steps, of which one holds at most
+    nothing of how they passed. So the step is flown again in short ones, of which one holds at most
     a hit. The crossing stands unless they then end in the same place and pass beside each other.
     """
     judge = run.judges[0]
     if not isinstance(judge, PairJudge):
         return True
     judge.over = False
-    again = Simulation(run.scene, dt=run.dt / FINER)
-    for _ in range(steps * FINER):
-        again.step()
-        if judge.crossed(again, run.dt / FINER):
+    dt = run.dt / FINER
+    again = Simulation(run.scene, dt=dt)
+    again.restore(before)
+    for _ in range(FINER):
+        again.step(dt)
+        if judge.crossed(again, dt):
             return True
     rows = [judge.a, judge.b]
     there, here = (np.diff(s.poses()[rows, :3], axis=0) for s in (again, simulation))
-    return bool(np.linalg.norm(there - here) > SAME_PLACE * np.linalg.norm(here))
+    return bool(np.linalg.norm(there - here) > SAME_PLACE * judge.near)
 
 
 def fly(run: Run) -> Counter:
@@ -65,6 +68,7 @@ def fly(run: Run) -> Counter:
     for step in range(run.steps):
         if run.before_step:
             run.before_step(simulation, step)
+        before = simulation.save()
         simulation.step()
         counts["steps"] += 1
         if not (np.isfinite(simulation.poses()).all() and np.isfinite(simulation.twists()).all()):
@@ -72,7 +76,7 @@ def fly(run: Run) -> Counter:
             break
         crossed = [judge.crossed(simulation, run.dt) for judge in run.judges]
         if any(crossed):
-            counts["crossed"] += (wrong := confirmed(run, simulation, step + 1))
+            counts["crossed"] += (wrong := confirmed(run, simulation, before))
             counts["seen_twice"] += not wrong
             break
     deepest = max(judge.deepest for judge in run.judges)
