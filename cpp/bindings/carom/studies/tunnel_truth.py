@@ -43,7 +43,8 @@ def confirmed(run: Run, simulation: Simulation, before: bytes) -> bool:
     Their judge sees where they are after each step and goes back along the last straight piece of
     their paths. Where they were hit again after they had passed beside each other, that piece tells
     nothing of how they passed. So the step is flown again in short ones, of which one holds at most
-    a hit. The crossing stands unless they then end in the same place and pass beside each other.
+    a hit. The crossing stands unless they then pass beside each other and end in the same place;
+    where bodies waited, which stop on their way, pass through it.
     """
     judge = run.judges[0]
     if not isinstance(judge, PairJudge):
@@ -52,13 +53,16 @@ def confirmed(run: Run, simulation: Simulation, before: bytes) -> bool:
     dt = run.dt / FINER
     again = Simulation(run.scene, dt=dt)
     again.restore(before)
+    waited = simulation.report.sweep.waited > again.report.sweep.waited
+    rows = [judge.a, judge.b]
+    here = np.diff(simulation.poses()[rows, :3], axis=0)
+    off = []
     for _ in range(FINER):
         again.step(dt)
         if judge.crossed(again, dt):
             return True
-    rows = [judge.a, judge.b]
-    there, here = (np.diff(s.poses()[rows, :3], axis=0) for s in (again, simulation))
-    return bool(np.linalg.norm(there - here) > SAME_PLACE * judge.near)
+        off.append(np.linalg.norm(np.diff(again.poses()[rows, :3], axis=0) - here))
+    return (min(off) if waited else off[-1]) > SAME_PLACE * judge.near
 
 
 def fly(run: Run) -> Counter:
