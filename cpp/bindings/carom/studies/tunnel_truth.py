@@ -37,14 +37,14 @@ relative to the distance two bodies must keep as they pass: on the other side th
 distance away at least."""
 
 
-def confirmed(run: Run, simulation: Simulation, before: bytes) -> bool:
+def confirmed(run: Run, simulation: Simulation, before: bytes, waited: bool) -> bool:
     """Whether two bodies did pass through each other that seem to, in the step from `before` on.
 
     Their judge sees where they are after each step and goes back along the last straight piece of
     their paths. Where they were hit again after they had passed beside each other, that piece tells
     nothing of how they passed. So the step is flown again in short ones, of which one holds at most
     a hit. The crossing stands unless they then pass beside each other and end in the same place;
-    where bodies waited, which stop on their way, pass through it.
+    where bodies `waited` in that step, and so stopped on their way, pass through it.
     """
     judge = run.judges[0]
     if not isinstance(judge, PairJudge):
@@ -53,7 +53,6 @@ def confirmed(run: Run, simulation: Simulation, before: bytes) -> bool:
     dt = run.dt / FINER
     again = Simulation(run.scene, dt=dt)
     again.restore(before)
-    waited = simulation.report.sweep.waited > again.report.sweep.waited
     rows = [judge.a, judge.b]
     here = np.diff(simulation.poses()[rows, :3], axis=0)
     off = []
@@ -72,7 +71,7 @@ def fly(run: Run) -> Counter:
     for step in range(run.steps):
         if run.before_step:
             run.before_step(simulation, step)
-        before = simulation.save()
+        before, waits = simulation.save(), simulation.report.sweep.waited
         simulation.step()
         counts["steps"] += 1
         if not (np.isfinite(simulation.poses()).all() and np.isfinite(simulation.twists()).all()):
@@ -80,7 +79,9 @@ def fly(run: Run) -> Counter:
             break
         crossed = [judge.crossed(simulation, run.dt) for judge in run.judges]
         if any(crossed):
-            counts["crossed"] += (wrong := confirmed(run, simulation, before))
+            counts["crossed"] += (
+                wrong := confirmed(run, simulation, before, simulation.report.sweep.waited > waits)
+            )
             counts["seen_twice"] += not wrong
             break
     deepest = max(judge.deepest for judge in run.judges)
