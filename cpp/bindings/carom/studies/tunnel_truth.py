@@ -61,7 +61,7 @@ def confirmed(run: Run, simulation: Simulation, before: bytes, waited: bool) -> 
         if judge.crossed(again, dt):
             return True
         off.append(np.linalg.norm(np.diff(again.poses()[rows, :3], axis=0) - here))
-    return (min(off) if waited else off[-1]) > SAME_PLACE * judge.near
+    return bool((min(off) if waited else off[-1]) > SAME_PLACE * judge.near)
 
 
 def fly(run: Run) -> Counter:
