@@ -51,6 +51,12 @@ Aabb intersection(const Aabb& a, const Aabb& b) {
   return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
 }
 
+bool on_face(const MeshSurface& s, int f, const Vector3d& point) {
+  const Vector3d p = s.corner(f, 0), q = s.corner(f, 1), r = s.corner(f, 2);
+  const double size = (q - p).norm() + (r - p).norm();
+  return (closest_point(point, p, q, r).point - point).norm() <= tolerance::inside_polygon * size;
+}
+
 /// The shallowest way out of t at x, within `range`, that leads away from the body of vertex v.
 /// Asked where the nearest way does not: flush with a side wall, the wall is nearest but the top
 /// holds.
@@ -58,20 +64,17 @@ SurfacePoint way_out(const MeshSurface& s, int v, const Frame& s_in_t, const Mes
                      const Vector3d& x, double margin, double range) {
   SurfacePoint best;
   best.distance = -range;
-  t.tree.query(
-      [&](const Aabb& box) { return squared_distance(box, x) <= range * range; },
-      [&](int f) {
-        const Vector3d& n = t.face_normals[f];
-        const Vector3d origin = t.corner(f, 0);
-        const double height = n.dot(x - origin);
-        if (n.isZero(0) || height > margin || height <= best.distance) return;
-        const Vector3d foot = x - height * n;
-        const TrianglePoint q = closest_point(foot, origin, t.corner(f, 1), t.corner(f, 2));
-        const double size = (t.corner(f, 1) - origin).norm() + (t.corner(f, 2) - origin).norm();
-        if ((q.point - foot).norm() > tolerance::inside_polygon * size) return;
-        if (!in_cone_of_vertex(s, v, -(s_in_t.rotation.transpose() * n))) return;
-        best = {f, height, foot, n, feature::face(t.face_cluster[f])};
-      });
+  t.tree.query([&](const Aabb& box) { return squared_distance(box, x) <= range * range; },
+               [&](int f) {
+                 const Vector3d& n = t.face_normals[f];
+                 const Vector3d origin = t.corner(f, 0);
+                 const double height = n.dot(x - origin);
+                 if (n.isZero(0) || height > margin || height <= best.distance) return;
+                 const Vector3d foot = x - height * n;
+                 if (!on_face(t, f, foot)) return;
+                 if (!in_cone_of_vertex(s, v, -(s_in_t.rotation.transpose() * n))) return;
+                 best = {f, height, foot, n, feature::face(t.face_cluster[f])};
+               });
   return best;
 }
 
@@ -108,36 +111,19 @@ struct VertexTest {
                    if (!n.isZero(0)) hold(f, height, n);
                  });
   }
-  bool on_face(int f, const Vector3d& point) const {
-    const Vector3d p = t.corner(f, 0), q = t.corner(f, 1), r = t.corner(f, 2);
-    const double size = (q - p).norm() + (r - p).norm();
-    return (closest_point(point, p, q, r).point - point).norm() <= tolerance::inside_polygon * size;
-  }
   /// Whether x lies over the face, or beside it past a crease: there its plane goes on behind the
   /// next face, and what crosses that face's end would cross the plane too.
   bool over(int f, const Vector3d& x) const {
-    const auto bend = [&](int k) {
-      const int e = t.face_edges[f][k];
-      return e < 0 ? Bend::convex : t.edges[e].bend;
+    const auto concave = [&](int k) {
+      const int e = t.face_edges[f][k % 3];
+      return e >= 0 && t.edges[e].bend == Bend::concave;
     };
     const TrianglePoint near = closest_point(x, t.corner(f, 0), t.corner(f, 1), t.corner(f, 2));
-    switch (near.feature) {
-      case TriangleFeature::face:
-        return true;
-      case TriangleFeature::edge0:
-        return bend(0) == Bend::concave;
-      case TriangleFeature::edge1:
-        return bend(1) == Bend::concave;
-      case TriangleFeature::edge2:
-        return bend(2) == Bend::concave;
-      case TriangleFeature::corner0:
-        return bend(2) == Bend::concave && bend(0) == Bend::concave;
-      case TriangleFeature::corner1:
-        return bend(0) == Bend::concave && bend(1) == Bend::concave;
-      case TriangleFeature::corner2:
-        return bend(1) == Bend::concave && bend(2) == Bend::concave;
-    }
-    return false;
+    if (near.feature == TriangleFeature::face) return true;
+    const int edge = static_cast<int>(near.feature) - static_cast<int>(TriangleFeature::edge0);
+    if (edge >= 0) return concave(edge);
+    const int corner = static_cast<int>(near.feature);  // the edge before it ends there
+    return concave(corner) && concave(corner + 2);
   }
   /// Behind a crease the nearest point is the crease itself, and one contact towards it would let
   /// the vertex slide on through either face: each that it is behind holds it.
@@ -147,7 +133,7 @@ struct VertexTest {
     faces_near(
         x, -q.distance * (1 + tolerance::inside_polygon),
         [&](int f, double height, const Vector3d& n) {
-          if (!(height < 0) || !on_face(f, q.point) || !points_at(v, n) || has(n, begin, out))
+          if (!(height < 0) || !on_face(t, f, q.point) || !points_at(v, n) || has(n, begin, out))
             return;
           add(v, x, {f, height, x - height * n, n, feature::face(t.face_cluster[f])}, out);
         });
@@ -191,9 +177,7 @@ struct VertexTest {
         q.normal = t.face_normals[t.face_cluster[q.face]];
       // Its own body must lie on the far side, or it is the back of a thin body showing through.
       // All corners of a face that is nearly level count: they carry the patch.
-      if (!in_cone_of_vertex(s, v, -(s_in_t.rotation.transpose() * q.normal),
-                             tolerance::similar_normal))
-        q = way_out(s, v, s_in_t, t, x, margin, range);
+      if (!points_at(v, q.normal)) q = way_out(s, v, s_in_t, t, x, margin, range);
       if (q.face >= 0) add(v, x, q, out);
       beside(v, x, begin, out, spare);
     }
