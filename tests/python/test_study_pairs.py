@@ -27,27 +27,26 @@ def test_the_table_names_every_pair(rows):
 
 
 def test_depth_is_that_of_the_reference(rows):
-    # 1e-9 m: what the pairs promise. Of the distance grid it is 1e-6, which some pairs miss (the
-    # table marks them): a hundredth of a cell is what this holds them to.
-    wrong = {
-        case: row["error"]
-        for case, row in rows.items()
-        if not row["error"] <= (2e-4 if "sdf" in case else row["allowed"])
-    }
+    # What the pairs promise: 1e-9 m, 1e-6 m of the distance grid.
+    wrong = {case: row["error"] for case, row in rows.items() if not row["error"] <= row["allowed"]}
     assert wrong == {}
 
 
 def test_normals_are_those_of_the_reference(rows):
-    # Of the closed forms; a grid's gradient is the derivative of what is right to 1e-6.
+    # Of the closed forms. Slopes of a grid's splines are off by sqrt(3)/216 h^3 |d4 phi|, of a ball
+    # of 0.4 m at an overlap of 0.1 m, where |d4 phi| <= 9 / 0.3^3, by 2.7e-6 along an axis.
     for case, row in rows.items():
         if row["normal"] is not None:
-            assert row["normal"] <= (1e-4 if "sdf" in case else 1e-9), case
+            assert row["normal"] <= (5e-6 if "sdf" in case else 1e-9), case
 
 
 def test_the_pair_asked_the_other_way_and_carried_along_is_the_same(rows):
+    # The level of a grid has bumps of the size of its error, h^4/384 |d4 phi| = 9e-9 m at most, and
+    # rounding decides in which of them the search between two grids ends.
     for case, row in rows.items():
-        assert row["swapped"] <= 1e-9, case
-        assert row["moved"] <= 1e-9, case
+        limit = 9e-9 if case == "sdf sdf" else 1e-9
+        assert row["swapped"] <= limit, case
+        assert row["moved"] <= limit, case
 
 
 def test_a_micrometre_changes_the_depth_by_no_more(rows):

@@ -2,14 +2,15 @@
 #include "carom/geometry/sdf.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "carom/numerics/invalid_input.hpp"
 #include "carom/numerics/tolerance.hpp"
 
 #include "geometry/sdf_surface.hpp"
+#include "geometry/spline.hpp"
 
 namespace carom {
 namespace {
@@ -17,26 +18,13 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-/// Weights of samples first .. first + 3 at a coordinate counted in cells, and their slopes.
-struct Weights {
-  int first, count;
-  std::array<double, 4> value, slope;
+/// The cell of a coordinate counted in cells, and the splines over it.
+struct Place {
+  int cell;
+  SplineWeights weights;
 
-  Weights(double x, int samples) {
-    const int cell = std::clamp(static_cast<int>(x), 0, samples - 2);
-    const double t = x - cell;
-    if (cell == 0 || cell == samples - 2) {
-      first = cell, count = 2;
-      value = {1 - t, t, 0, 0};
-      slope = {-1, 1, 0, 0};
-      return;
-    }
-    first = cell - 1, count = 4;  // Lagrange's cubic through -1, 0, 1, 2
-    value = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
-             -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
-    slope = {-(3 * t * t - 6 * t + 2) / 6, (3 * t * t - 4 * t - 1) / 2,
-             -(3 * t * t - 2 * t - 2) / 2, (3 * t * t - 1) / 6};
-  }
+  Place(double x, int samples)
+      : cell(std::clamp(static_cast<int>(x), 0, samples - 2)), weights(x - cell) {}
 };
 
 }  // namespace
@@ -45,17 +33,20 @@ double SdfGrid::sample(const Vector3d& p, Vector3d& gradient) const {
   const Aabb all = box();
   const Vector3d inside = p.cwiseMax(all.lower).cwiseMin(all.upper);
   const Vector3d x = (inside - lower) / spacing;
-  const Weights wx(x.x(), count.x()), wy(x.y(), count.y()), wz(x.z(), count.z());
+  const Place px(x.x(), count.x()), py(x.y(), count.y()), pz(x.z(), count.z());
+  const SplineWeights &wx = px.weights, &wy = py.weights, &wz = pz.weights;
+  const std::size_t row = static_cast<std::size_t>(count.x()) + 2;
+  const std::size_t layer = row * (static_cast<std::size_t>(count.y()) + 2);
+  const double* first = &coefficients[px.cell + row * py.cell + layer * pz.cell];
   double sum = 0;
   gradient.setZero();
-  for (int k = 0; k < wz.count; ++k)
-    for (int j = 0; j < wy.count; ++j) {
-      const double* row =
-          &values[wx.first +
-                  static_cast<std::size_t>(count.x()) *
-                      (wy.first + j + static_cast<std::size_t>(count.y()) * (wz.first + k))];
-      double v = 0, s = 0;
-      for (int i = 0; i < wx.count; ++i) v += wx.value[i] * row[i], s += wx.slope[i] * row[i];
+  for (int k = 0; k < 4; ++k)
+    for (int j = 0; j < 4; ++j) {
+      const double* c = first + j * row + k * layer;
+      const double v =
+          wx.value[0] * c[0] + wx.value[1] * c[1] + wx.value[2] * c[2] + wx.value[3] * c[3];
+      const double s =
+          wx.slope[0] * c[0] + wx.slope[1] * c[1] + wx.slope[2] * c[2] + wx.slope[3] * c[3];
       sum += wz.value[k] * wy.value[j] * v;
       gradient.x() += wz.value[k] * wy.value[j] * s;
       gradient.y() += wz.value[k] * wy.slope[j] * v;
@@ -82,23 +73,26 @@ SdfGrid SdfGrid::from_function(const Distance& distance, const Aabb& box, double
     throw InvalidInput("Sdf.spacing", with_unit(spacing, "m"),
                        "makes " + with_unit(cells.prod(), "samples"), "choose a larger spacing");
   g.count = cells.cast<int>();
-  g.values.reserve(static_cast<std::size_t>(cells.prod()));
+  std::vector<double> samples;
+  samples.reserve(static_cast<std::size_t>(cells.prod()));
   for (int k = 0; k < g.count.z(); ++k)
     for (int j = 0; j < g.count.y(); ++j)
       for (int i = 0; i < g.count.x(); ++i) {
         const double d = distance(g.lower + spacing * Vector3d(i, j, k));
         require_finite(d, "Sdf.distance", "m");
-        g.values.push_back(d);
+        samples.push_back(d);
       }
+  g.coefficients = spline_coefficients(samples, g.count);
   Vector3d unused;
-  for (int k = 1; k + 2 < g.count.z(); ++k)
-    for (int j = 1; j + 2 < g.count.y(); ++j)
-      for (int i = 1; i + 2 < g.count.x(); ++i) {
-        if (std::abs(g.value(i, j, k)) > 2 * spacing) continue;
+  for (int k = 0; k + 1 < g.count.z(); ++k)
+    for (int j = 0; j + 1 < g.count.y(); ++j)
+      for (int i = 0; i + 1 < g.count.x(); ++i) {
+        const std::size_t row = j + static_cast<std::size_t>(g.count.y()) * k;
+        if (std::abs(samples[i + g.count.x() * row]) > 2 * spacing) continue;
         const Vector3d p = g.lower + spacing * Vector3d(i + 0.5, j + 0.5, k + 0.5);
         g.error = std::max(g.error, std::abs(g.sample(p, unused) - distance(p)));
       }
-  g.surface = zero_level(g);
+  g.surface = zero_level(g, samples);
   return g;
 }
 

@@ -18,6 +18,7 @@ using Eigen::Vector3i;
 
 struct Marcher {
   const SdfGrid& grid;
+  const std::vector<double>& samples;
   std::map<std::pair<std::int64_t, std::int64_t>, int> on_edge{};
   std::vector<Vector3d> vertices{};
   std::vector<std::array<int, 3>> faces{};
@@ -26,7 +27,7 @@ struct Marcher {
     return c.x() + std::int64_t{grid.count.x()} * (c.y() + std::int64_t{grid.count.y()} * c.z());
   }
   // A sample exactly on the level counts as outside, so every vertex lies within an edge.
-  double value(const Vector3i& c) const { return grid.value(c.x(), c.y(), c.z()); }
+  double value(const Vector3i& c) const { return samples[number(c)]; }
 
   int vertex(const Vector3i& a, const Vector3i& b) {
     const std::pair<std::int64_t, std::int64_t> key = std::minmax({number(a), number(b)});
@@ -68,10 +69,11 @@ struct Marcher {
 
 }  // namespace
 
-std::shared_ptr<const MeshSurface> zero_level(const SdfGrid& grid) {
+std::shared_ptr<const MeshSurface> zero_level(const SdfGrid& grid,
+                                              const std::vector<double>& samples) {
   // The six orders in which three unit steps lead across a cell: Kuhn's subdivision.
   constexpr int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-  Marcher m{grid};
+  Marcher m{grid, samples};
   for (int k = 0; k + 1 < grid.count.z(); ++k)
     for (int j = 0; j + 1 < grid.count.y(); ++j)
       for (int i = 0; i + 1 < grid.count.x(); ++i)
@@ -82,7 +84,7 @@ std::shared_ptr<const MeshSurface> zero_level(const SdfGrid& grid) {
           m.tetrahedron(t);
         }
   if (m.faces.empty())
-    throw InvalidInput("Sdf.values", "of one sign", "must cross zero", "enclose the surface");
+    throw InvalidInput("Sdf.distance", "of one sign", "must cross zero", "enclose the surface");
   TriangleMesh mesh;
   mesh.vertices.resize(static_cast<Eigen::Index>(m.vertices.size()), 3);
   mesh.faces.resize(static_cast<Eigen::Index>(m.faces.size()), 3);

@@ -137,8 +137,10 @@ bool is_sheet(const Leaf& leaf) {
 /// An order of two grids that are not alike, so that a pair is worked out the same whoever asks.
 bool comes_later(const SdfGrid& a, const SdfGrid& b) {
   if (a.spacing != b.spacing) return a.spacing > b.spacing;
-  if (a.values.size() != b.values.size()) return a.values.size() > b.values.size();
-  return std::ranges::lexicographical_compare(b.values, a.values);
+  if (&a == &b) return false;  // nothing in its millions of numbers would tell
+  const std::vector<double>&ca = a.coefficients, &cb = b.coefficients;
+  if (ca.size() != cb.size()) return ca.size() > cb.size();
+  return std::ranges::lexicographical_compare(cb, ca);
 }
 
 /// Whether the pair is asked as (b, a).

@@ -6,10 +6,10 @@
 #include <Eigen/Geometry>
 
 #include "carom/geometry/sdf.hpp"
-#include "carom/geometry/separation.hpp"
 #include "carom/numerics/tolerance.hpp"
 
 #include "geometry/features.hpp"
+#include "geometry/point_distance.hpp"
 #include "narrow/candidates.hpp"
 #include "narrow/routines.hpp"
 #include "narrow/sdf_touch.hpp"
@@ -125,24 +125,22 @@ void sdf_convex(const SdfGrid& a, const Convex& b, const Frame& b_in_a, double m
     return emit(found, tolerance::similar_normal, out);
   }
   const double inf = std::numeric_limits<double>::infinity();
-  const auto apart = [&](const Vector3d& q) {
-    return separation(Convex::point(q), b, b_in_a, inf);
-  };
+  const auto apart = [&](const Vector3d& q) { return point_distance(b, b_in_a.to_local(q)); };
+  // The least over all of b, not only its surface: a step inside is one down the field as well, and
+  // is not thrown across to another side.
   const auto on_b = [&](Vector3d& q) {
-    q = apart(q).point_b;
-    return true;
+    if (const PointDistance d = apart(q); d.distance > 0) q = b_in_a * d.point;
   };
-  const auto seen_by_a = [&](const Vector3d& x) { return touch(a, x); };
   const auto seen_by_b = [&](const Vector3d& x) {
-    const Separation s = apart(x);
-    return Touch{x, -s.normal, s.distance};
+    const PointDistance d = apart(x);
+    return Touch{x, b_in_a.rotation * d.normal, d.distance};
   };
   const auto grown = [&](const Vector3d& n) {  // lowest against a unit n
     return Vector3d(b_in_a * b.support(-(b_in_a.rotation.transpose() * n)) - b.radius * n);
   };
   Touch best;
   const auto offer = [&](const Vector3d& x, std::uint32_t name) {
-    const Touch t = seen_by_a(x);
+    const Touch t = touch(a, x);
     if (t.gap < best.gap) best = t;
     if (name != 0 && t.gap <= margin) add(measured(a, t), 0, name);
   };
@@ -165,8 +163,8 @@ void sdf_convex(const SdfGrid& a, const Convex& b, const Frame& b_in_a, double m
   const Vector3d v = nearest_vertex(
       a, near.inflated(margin), [&](const Vector3d& q) { return apart(q).distance; }, least);
   Touch level;
-  if (Vector3d q = v; least < inf && on_b(q)) offer(q, 0);
-  best = settle(a, best, seen_by_a, on_b);
+  if (least < inf) offer(b_in_a * apart(v).point, 0);
+  best = settle(a, best, on_b);
   best.gap = measured(a, best).gap;  // its gradient is square to the other body
   if (best.gap <= margin) {
     thread_local Face patch;
@@ -176,7 +174,7 @@ void sdf_convex(const SdfGrid& a, const Convex& b, const Frame& b_in_a, double m
         offer(patch.points[i], patch.vertex_features[i]);
   }
   if (least <= margin + a.spacing)
-    level = settle(a, seen_by_b(v), seen_by_b, [&](Vector3d& q) { return onto_level(a, q); });
+    level = settle_on_level_seen_from(0.5 * a.box().extents().norm(), a, v, seen_by_b);
   add_both(best, level, blur(a), margin);
   if (found.empty() && least < 0)
     part(a, b_in_a, b_in_a.translation, b.radius, [&](const Vector3d& n) {
@@ -191,14 +189,14 @@ void sdf_surface(const SdfGrid& a, const MeshSurface& b, const Frame& b_in_a, do
   const Frame a_in_b = b_in_a.inverse();
   const double inf = std::numeric_limits<double>::infinity();
   const Aabb near_b = moved(a.surface->tree.nodes[0].box.inflated(margin), a_in_b);
-  const auto seen_by_a = [&](const Vector3d& x) { return touch(a, x); };
   const auto seen_by_b = [&](const Vector3d& x) {
     const SurfacePoint p = closest_point(b, a_in_b * x, inf);
     return Touch{x, b_in_a.rotation * p.normal, p.distance};
   };
+  const bool solid = b.faults.closed();
   const auto on_b = [&](Vector3d& q) {
-    q = b_in_a * closest_point(b, a_in_b * q, inf).point;
-    return true;
+    const SurfacePoint p = closest_point(b, a_in_b * q, inf);
+    if (!solid || p.distance > 0) q = b_in_a * p.point;
   };
   Touch best;
   thread_local std::vector<int> vertices;
@@ -227,15 +225,14 @@ void sdf_surface(const SdfGrid& a, const MeshSurface& b, const Frame& b_in_a, do
       [&](const Vector3d& x) { return closest_point(b, a_in_b * x, inf).distance; }, least);
   Touch level;
   if (least <= margin + a.spacing) {
-    Vector3d q = v;
-    (void)on_b(q);
+    const Vector3d q = b_in_a * closest_point(b, a_in_b * v, inf).point;
     if (const Touch t = touch(a, q); t.gap < best.gap) best = t;
-    level = settle(a, seen_by_b(v), seen_by_b, [&](Vector3d& x) { return onto_level(a, x); });
+    level = settle_on_level_seen_from(a.spacing, a, v, seen_by_b);
   }
-  if (best.gap < inf) best = settle(a, best, seen_by_a, on_b);
+  if (best.gap < inf) best = settle(a, best, on_b);
   if (best.gap < inf) best.gap = measured(a, best).gap;
   add_both(best, level, blur(a), margin);
-  if (found.empty() && least < 0 && b.faults.closed())
+  if (found.empty() && least < 0 && solid)
     part(a, b_in_a, all_b.centre(), 0,
          [&](const Vector3d& n) { return lowest_vertex(b, b_in_a, n); });
   emit(found, tolerance::similar_normal, out);
@@ -251,14 +248,12 @@ Touch deepest(const SdfGrid& field, const SdfGrid& body, const Frame& body_in_fi
   const Vector3d v = nearest_vertex(
       body, near, [&](const Vector3d& x) { return field.sample(body_in_field * x, g); }, least);
   if (!(least <= margin + field.spacing + body.spacing)) return {};
-  Touch low = settle(
-      field, touch(field, body_in_field * v), [&](const Vector3d& x) { return touch(field, x); },
-      [&](Vector3d& q) {
-        Vector3d y = field_in_body * q;
-        const bool there = onto_level(body, y);
-        q = body_in_field * y;
-        return there;
-      });
+  Touch low = settle_on_level(body, v, [&](const Vector3d& x) {
+    Touch t = touch(field, body_in_field * x);
+    t.x = x, t.normal = field_in_body.rotation * t.normal;
+    return t;
+  });
+  low.x = body_in_field * low.x, low.normal = body_in_field.rotation * low.normal;
   low.gap = measured(field, low).gap;
   return low;
 }
@@ -324,16 +319,12 @@ void half_space_sdf(const Vector3d& normal, double offset, const SdfGrid& b, con
       found.push_back({n,
                        {s.vertex(p.vertex) - 0.5 * p.gap * n, p.gap,
                         feature::pair(feature::face(0), feature::vertex(p.vertex))}});
-  const auto foot = [&](Vector3d& x) {
-    x -= (n.dot(x) - level) * n;
-    return true;
-  };
+  const auto foot = [&](Vector3d& x) { x -= (n.dot(x) - level) * n; };
   const auto over = [&](const Vector3d& x) { return Touch{x, n, n.dot(x) - level}; };
   Vector3d under = lowest;
-  (void)foot(under);
-  const Touch inside =
-      settle(b, touch(b, under), [&](const Vector3d& x) { return touch(b, x); }, foot);
-  const Touch deep = settle(b, over(lowest), over, [&](Vector3d& x) { return onto_level(b, x); });
+  foot(under);
+  const Touch inside = settle(b, touch(b, under), foot);
+  const Touch deep = settle_on_level(b, lowest, over);
   // The plane gives the normal; its own search counts where the grid's gradient says the same.
   const bool faces = inside.normal.dot(-n) > tolerance::facing;
   const double gap = faces ? std::min(inside.gap, deep.gap) : deep.gap;

@@ -18,8 +18,9 @@ Touch touch(const SdfGrid& grid, const Vector3d& x) {
   return t;
 }
 
-bool onto_level(const SdfGrid& grid, Vector3d& p) {
+bool onto_level(const SdfGrid& grid, Level& at) {
   const double still = tolerance::sdf_settled * grid.spacing;
+  const Vector3d p = at.x;
   Vector3d g, x = p;
   double d = grid.sample(x, g);
   for (int i = 0; i < tolerance::newton_iterations && std::abs(d) > still; ++i) {
@@ -36,20 +37,21 @@ bool onto_level(const SdfGrid& grid, Vector3d& p) {
     const auto beyond = [&](double s) {
       return (grid.sample(p + s * along, unused) > 0) != (start > 0);
     };
-    for (int i = 0; i < 4 && !beyond(high); ++i) high *= 2;
+    for (int i = 0; i < tolerance::level_doublings && !beyond(high); ++i) high *= 2;
     if (!beyond(high)) return false;
-    for (int i = 0; i < 60; ++i) {
+    while (high - low > still) {
       const double middle = 0.5 * (low + high);
       (beyond(middle) ? high : low) = middle;
     }
     x = p + high * along;
+    (void)grid.sample(x, g);
   }
-  p = x;
+  at = {x, g.norm() > 0 ? Vector3d(g.normalized()) : Vector3d(Vector3d::UnitZ())};
   return true;
 }
 
 Touch measured(const SdfGrid& grid, const Touch& t) {
-  if (!(std::abs(t.gap) > grid.spacing)) return t;
+  if (!(std::abs(t.gap) > tolerance::sdf_settled * grid.spacing)) return t;
   const auto seen = [&](const Vector3d& y) {
     const Vector3d away = y - t.x;
     return Touch{y, away.normalized(), away.norm()};
@@ -58,12 +60,14 @@ Touch measured(const SdfGrid& grid, const Touch& t) {
   Vector3d foot = t.x - t.gap * t.normal;
   if (beyond)
     foot = closest_point(*grid.surface, t.x, std::numeric_limits<double>::infinity()).point;
-  if (!onto_level(grid, foot)) return t;
-  const Touch level =
-      settle(grid, seen(foot), seen, [&](Vector3d& q) { return onto_level(grid, q); });
+  const Touch level = settle_on_level(grid, foot, seen);
+  if (!std::isfinite(level.gap)) return t;
   const double distance = t.gap < 0 ? -level.gap : level.gap;
   // Beside a ridge of the inside the search may end on another side of the body: no measure then.
   if (!beyond && std::abs(distance - t.gap) > grid.spacing + grid.error) return t;
+  // Near the level the way to it is too short to tell a direction: its foot is as far off, along
+  // the level, as the field is across it.
+  if (std::abs(distance) <= grid.spacing) return {t.x, t.normal, distance};
   return {t.x, t.gap < 0 ? level.normal : Vector3d(-level.normal), distance};
 }
 

@@ -67,15 +67,16 @@ TEST(TwoGrids, OfBallsOverlapAsTheBallsDo) {
     const Vector3d n = random_vector(random).normalized();
     there.position = at.position + (0.7 + gap) * n;
     const Deepest one = deepest_of(big, at, small, there), two = deepest_of(small, there, big, at);
-    // 3/128 h^4 |d4 phi|, which is at most 9 / r^3 of a sphere: 1.3e-6 of the small one at its
-    // worst, along a diagonal; a millionth and a half for both.
-    EXPECT_NEAR(one.gap, gap, 1.5e-6);
-    // The same two searches, joined by no order of the two.
-    EXPECT_NEAR(one.gap, two.gap, 1e-12);
-    EXPECT_LT((one.normal + two.normal).norm(), 1e-9);
-    // Slopes of the cubics are off by h^3/12 |d4 phi| along an axis, 3.9e-4 at 0.25 m from the
-    // middle of the small ball, and all three axes at once by 1.7 times that.
-    EXPECT_LT((one.normal - n).norm(), 7e-4);
+    // h^4/384 |d4 phi|, which is at most 9 / r^3 of a sphere: 1.4e-7 of the small one along each
+    // of three axes, and 0.6e-7 of the other.
+    EXPECT_NEAR(one.gap, gap, 6e-7);
+    // The same two searches, joined by no order of the two. The splines leave bumps of a tenth of
+    // that on a level, and rounding decides in which of them a search ends.
+    EXPECT_NEAR(one.gap, two.gap, 6e-8);
+    // Slopes are off by sqrt(3)/216 h^3 |d4 phi|, 3.7e-5 along an axis at 0.25 m from the middle of
+    // the small ball.
+    EXPECT_LT((one.normal + two.normal).norm(), 7e-5);
+    EXPECT_LT((one.normal - n).norm(), 7e-5);
   }
 }
 
@@ -113,10 +114,11 @@ TEST(ABlockGrid, IsFollowedByFewLooksOnceItRests) {
 }
 
 TEST(ABlockGrid, IsHeldByAPlateItTouchesHoweverFast) {
-  // A plate of five cells, touched, then run through at 300 m/s: 5 m in a step.
-  const Shape plate = block_grid({0.6, 0.6, 0.05}), ball = Sphere{0.1};
+  // A plate of ten cells, touched, then run through at 300 m/s: 5 m in a step. Its faces are five
+  // cells off the crease in its middle, so that they lie where they should.
+  const Shape plate = block_grid({0.6, 0.6, 0.1}), ball = Sphere{0.1};
   const FirstContact r = first_contact(plate, path_of({0, 0, 0}, {0, 0, 0}), ball,
-                                       path_of({0.1, 0.2, 0.15}, {0, 0, -300}), 0, 1.0 / 60);
+                                       path_of({0.1, 0.2, 0.2}, {0, 0, -300}), 0, 1.0 / 60);
   ASSERT_EQ(r.status, Status::contact);
   // No deeper than a touching pair may come nearer, and the last halving of a look of 0.01 m.
   EXPECT_LE(300 * r.time, tolerance::sweep_slop + 0.01 / 65536 + 1e-9);

@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 import carom
+from carom.studies import pairs_distances as closed
+from carom.studies.pairs_distances import Distance
 
 Array = np.ndarray
 Support = Callable[[Array], Array]
@@ -24,6 +26,8 @@ class Twin:
     shape: object
     convex: list[Support] = field(default_factory=list)
     """Support functions of convex pieces; the body is their union."""
+    distance: Distance | None = None
+    """Of a point to the body, signed, where it has a closed form."""
     balls: list[tuple[Array, float]] | None = None
     """Centres and radii where the body is nothing but balls."""
     triangles: Array | None = None
@@ -34,7 +38,7 @@ class Twin:
     """Centre of a level face and its half width, m, to set things down on."""
     static: bool = False
     tolerance: float = 1e-9
-    """m, of depth: 1e-6 of the distance grid, whose cells are 0.02 m, 1e-9 elsewhere."""
+    """m, of depth: 1e-6 of the distance grid, whose cells are 0.01 m, 1e-9 elsewhere."""
 
 
 def _ball(radius: float, centre: Sequence[float] = (0, 0, 0)) -> Support:
@@ -106,8 +110,19 @@ def twins() -> list[Twin]:
     ball_part = carom.Part(carom.Sphere(0.2), [0.3, 0, 0])
     cylinder = lambda n: 0.4 * np.abs(n[..., 2]) + 0.35 * _across(n)  # noqa: E731
     return [
-        Twin("sphere", carom.Sphere(0.4), [_ball(0.4)], [(np.zeros(3), 0.4)]),
-        Twin("box", carom.Box([0.5, 0.7, 0.9]), [_box([0.5, 0.7, 0.9])]),
+        Twin(
+            "sphere",
+            carom.Sphere(0.4),
+            [_ball(0.4)],
+            closed.to_ball(0.4),
+            [(np.zeros(3), 0.4)],
+        ),
+        Twin(
+            "box",
+            carom.Box([0.5, 0.7, 0.9]),
+            [_box([0.5, 0.7, 0.9])],
+            closed.to_box([0.5, 0.7, 0.9]),
+        ),
         Twin("plane", carom.Plane([0, 0, 1], 0.1), static=True),
         Twin(
             "mesh",
@@ -119,21 +134,34 @@ def twins() -> list[Twin]:
             "capsule",
             carom.Capsule(0.25, 0.6),
             [lambda n: 0.3 * np.abs(n[..., 2]) + 0.25],
+            closed.to_capsule(0.25, 0.6),
         ),
-        Twin("cylinder", carom.Cylinder(0.35, 0.8), [cylinder]),
-        Twin("cone", carom.Cone(0.4, 0.9), [_cone(0.4, 0.9)]),
+        Twin(
+            "cylinder",
+            carom.Cylinder(0.35, 0.8),
+            [cylinder],
+            closed.to_revolved(np.array([[0, 0.4], [0.35, 0.4], [0.35, -0.4], [0, -0.4]])),
+        ),
+        Twin(
+            "cone",
+            carom.Cone(0.4, 0.9),
+            [_cone(0.4, 0.9)],
+            closed.to_revolved(np.array([[0, 0.675], [0.4, -0.225], [0, -0.225]])),
+        ),
         Twin(
             "ellipsoid",
             carom.Ellipsoid([0.3, 0.4, 0.6]),
             [lambda n: np.linalg.norm(n * [0.3, 0.4, 0.6], axis=-1)],
+            closed.to_ellipsoid([0.3, 0.4, 0.6]),
         ),
-        Twin("convex_hull", carom.ConvexHull(cloud), [_points(cloud)]),
+        Twin("convex_hull", carom.ConvexHull(cloud), [_points(cloud)], closed.to_hull(cloud)),
         Twin(
             "sdf",
             carom.Sdf.from_function(
-                lambda p: float(np.sqrt(p @ p)) - 0.4, [-0.4] * 3, [0.4] * 3, 0.02
+                lambda p: float(np.sqrt(p @ p)) - 0.4, [-0.4] * 3, [0.4] * 3, 0.01
             ),
             [_ball(0.4)],
+            closed.to_ball(0.4),
             [(np.zeros(3), 0.4)],
             tolerance=1e-6,
         ),
@@ -149,11 +177,13 @@ def twins() -> list[Twin]:
             "particles",
             carom.Particles(beads, 0.15),
             [_ball(0.15, b) for b in beads],
+            closed.nearest_of([closed.to_ball(0.15, b) for b in beads]),
             [(b, 0.15) for b in beads],
         ),
         Twin(
             "compound",
             carom.Compound([box_part, ball_part]),
             [_box([0.4, 0.4, 0.4]), _ball(0.2, [0.3, 0, 0])],
+            closed.nearest_of([closed.to_box([0.4] * 3), closed.to_ball(0.2, [0.3, 0, 0])]),
         ),
     ]

@@ -12,13 +12,14 @@
 namespace carom {
 
 /// Signed distance to a surface, negative inside, sampled on a regular grid and interpolated by
-/// cubics through four samples a side: exact for cubic distances, off by 3/128 h^4 |d4 phi / dx4|
-/// of smooth ones, by about a tenth of a cell at a sharp edge. Near the rim of the grid: linear.
+/// cubic splines, which have no kinks: exact for cubic distances; of smooth ones off by
+/// h^4/384 |d4 phi / dx4| along each axis, slopes by sqrt(3)/216 h^3 of the same; by about a tenth
+/// of a cell at a sharp edge, and four cells away from it not at all.
 struct SdfGrid {
   Eigen::Vector3d lower;                            ///< m, first sample
   double spacing = 0;                               ///< m, cell size h
   Eigen::Vector3i count = Eigen::Vector3i::Zero();  ///< samples along each axis, >= 4
-  std::vector<double> values;                       ///< m, x fastest
+  std::vector<double> coefficients;                 ///< m, of B-splines, count + 2, x fastest
   double error =
       0;  ///< m, largest |interpolated - true| met at the centres of cells the surface cuts
   std::shared_ptr<const MeshSurface> surface;  ///< of the zero level, vertices put onto it
@@ -38,10 +39,6 @@ struct SdfGrid {
   /// Distance at p, and its gradient (not normalised). Outside the box: that of the nearest point
   /// in it plus the way there.
   [[nodiscard]] double sample(const Eigen::Vector3d& p, Eigen::Vector3d& gradient) const;
-  [[nodiscard]] double value(int i, int j, int k) const {
-    return values[i + static_cast<std::size_t>(count.x()) *
-                          (j + static_cast<std::size_t>(count.y()) * k)];
-  }
 };
 
 }  // namespace carom

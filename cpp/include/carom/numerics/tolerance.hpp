@@ -84,6 +84,9 @@ inline constexpr double crease = 0.02;
 /// Steps of Newton's method for a direction: four double the digits of 1e-2 to 1e-16.
 inline constexpr int newton_iterations = 12;
 
+/// Steps of Newton's method for the point of an ellipsoid next to another: 1.5^90 leads out of u.
+inline constexpr int ellipsoid_iterations = 100;
+
 /// Points nearer to a face of their hull than this times its size are not made corners: twenty
 /// times the rounding of a plane through three of them when they are 1e-4 of the size apart.
 inline constexpr double hull_plane = 1e-10;
@@ -103,6 +106,15 @@ inline constexpr double sdf_gradient = 0.5;
 /// they end. From one cell out they close by half a step at curvatures up to one cell.
 inline constexpr int projections = 60;
 inline constexpr double sdf_settled = 1e-9;
+
+/// A step that led uphill is taken again at this share; one that met no curve is followed by one so
+/// many times as long. Choice.
+inline constexpr double stride_back = 0.25;
+inline constexpr double stride_on = 4;
+
+/// Doublings of the distance that a field claims within which its level is looked for: at a crease
+/// of a cubic field it is off by less than twice.
+inline constexpr int level_doublings = 4;
 
 /// Cosine by which a gradient inside a body must oppose the motion to be taken without asking where
 /// the path came in: 60 degrees. At a corner of faces it is about 0, and the samples around reach
