@@ -104,6 +104,69 @@ TEST(ABlockGrid, PokesIntoABoxByItsCorner) {
   }
 }
 
+/// The level over a point of a plane, up to a cell along its normal, by halving; far off where there
+/// is none.
+Vector3d level_over(const SdfGrid& grid, const Vector3d& at, const Vector3d& n) {
+  double low = -grid.spacing, high = grid.spacing;
+  Vector3d unused;
+  if (grid.sample(at + low * n, unused) > 0 || grid.sample(at + high * n, unused) < 0)
+    return Vector3d::Constant(1e9);
+  while (high - low > 1e-13) {
+    const double middle = 0.5 * (low + high);
+    (grid.sample(at + middle * n, unused) > 0 ? high : low) = middle;
+  }
+  return at + low * n;
+}
+
+/// Distance of the zero level to a point: over every triangle of its mesh, then by a compass search
+/// over the tangent plane of the nearest. No gradient, no projection.
+double distance_to_level(const SdfGrid& grid, const Vector3d& p) {
+  const MeshSurface& s = *grid.surface;
+  double best = std::numeric_limits<double>::infinity();
+  Vector3d at = Vector3d::Zero(), n = Vector3d::UnitZ();
+  for (int f = 0; f < s.mesh.faces.rows(); ++f) {
+    const Vector3d a = s.corner(f, 0), b = s.corner(f, 1), c = s.corner(f, 2);
+    const Vector3d middle = (a + b + c) / 3, cross = (b - a).cross(c - a);
+    if ((middle - p).norm() < best && cross.norm() > 1e-9)
+      best = (middle - p).norm(), at = middle, n = cross.normalized();
+  }
+  const auto far = [&](const Vector3d& x) { return (level_over(grid, x, n) - p).norm(); };
+  const Vector3d u = n.unitOrthogonal(), v = n.cross(u);
+  best = far(at);
+  for (double step = grid.spacing; step > 1e-9;) {
+    bool better = false;
+    for (const Vector3d& way : {u, v, Vector3d(-u), Vector3d(-v), Vector3d(u + v), Vector3d(u - v),
+                                Vector3d(v - u), Vector3d(-u - v)})
+      if (const double d = far(at + step * way); d < best)
+        best = d, at += step * way, better = true;
+    if (!better) step *= 0.5;
+  }
+  return best;
+}
+
+// Faces, edges and corners alike: what the pair reports is the distance of the level that the grid
+// has, whatever that level is off the block it was made of.
+TEST(ABlockGrid, IsAsFarFromABallAsItsLevelIs) {
+  std::mt19937_64 random(17);
+  const Shape block = block_grid({0.2, 0.25, 0.3}), ball = Sphere{0.1};
+  const SdfGrid& grid = *std::get<Sdf>(block).grid;
+  int seen[3] = {0, 0, 0};
+  for (int i = 0; i < 150; ++i) {
+    const Vector3d half(0.2, 0.25, 0.3);
+    Vector3d x = random_vector(random).normalized();
+    for (int k = 0; k < 3; ++k)  // over a face, an edge, a corner in turn
+      x[k] = k <= i % 3 ? std::copysign(half[k] + 0.06, x[k]) : 0.8 * half[k] * x[k];
+    const double true_gap = distance_to_level(grid, x) - 0.1;
+    if (true_gap > 0.018) continue;
+    const Deepest got = deepest_of(block, {}, ball, {.position = x});
+    // The compass ends at 1e-9 m along the level; beside a crease, where the level bends over a
+    // cell, its eight ways may stop a little above the least.
+    EXPECT_NEAR(got.gap, true_gap, 1e-7) << x.transpose();
+    ++seen[i % 3];
+  }
+  for (const int n : seen) EXPECT_GT(n, 20);
+}
+
 TEST(ABlockGrid, IsFollowedByFewLooksOnceItRests) {
   const Shape block = block_grid({0.25, 0.25, 0.25}), floor = Box{{10, 10, 1}};
   // Sliding 5 mm while it lies on the floor: half a cell takes one look, and one is for the start.
