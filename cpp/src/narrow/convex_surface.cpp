@@ -61,7 +61,65 @@ struct Test {
     for (std::size_t i = 0; i < patch.points.size() && patch.points.size() > 1; ++i)
       hold(f, patch.points[i] + body.radius * n, n, patch.vertex_features[i]);
   }
+  /// Where the body lies deepest over an edge: of all directions between the normals of its faces
+  /// the one of the largest gap. Beyond it the body reaches farther down on the one side, before it
+  /// on the other. No way out to a side that the faces bar, as a thin body over an edge would find.
   void edge(int e) const {
+    const auto& edge = surface.edges[e];
+    if (edge.f1 < 0) return rim(e);
+    const Vector3d p = surface.vertex(edge.v0), pq = surface.vertex(edge.v1) - p;
+    const double length = pq.norm();
+    const Vector3d &n0 = surface.face_normals[edge.f0], &n1 = surface.face_normals[edge.f1];
+    const Vector3d across = (n1 - n1.dot(n0) * n0).normalized();
+    struct Way {
+      Vector3d n, tip;
+      double slope;  // of the gap, as the direction turns
+    };
+    const auto towards = [&](double angle) {
+      const double c = std::cos(angle), s = std::sin(angle);
+      const Vector3d n = c * n0 + s * across, turned = c * across - s * n0;
+      const Vector3d tip = frame * body.support(-to_body(n));
+      return Way{n, tip, turned.dot(tip - p)};
+    };
+    double from = 0, to = std::atan2(n1.dot(across), n1.dot(n0));
+    Way low = towards(from), high = towards(to);
+    if (!(low.slope > 0) || !(high.slope < 0)) return;  // a face has it
+    while (to - from > tolerance::same_direction) {
+      const double middle = 0.5 * (from + to);
+      const Way way = towards(middle);
+      (way.slope > 0 ? low : high) = way;
+      (way.slope > 0 ? from : to) = middle;
+    }
+    const Vector3d& n = low.n;
+    const double share = low.slope / (low.slope - high.slope);
+    const Vector3d x = low.tip + share * (high.tip - low.tip);
+    const double gap = n.dot(x - p) - body.radius;
+    if (gap > margin || gap < -range) return;
+    const auto at = [&](const Vector3d& point, std::uint32_t name) {
+      out.push_back({n, {point - (body.radius + 0.5 * gap) * n, gap,
+                         feature::pair(feature::edge(e), name)}});
+    };
+    // A side along the edge has two points where both are; anything else crosses it at one.
+    thread_local Face side;
+    support_face(body, -to_body(n), frame, side);
+    const Vector3d u = pq / length;
+    if (side.points.size() > 1) {
+      const Vector3d way = side.points[1] - side.points[0];
+      const bool along = u.cross(way).norm() <= tolerance::normal_cone * way.norm();
+      if (along) {
+        double ends[2] = {u.dot(side.points[0] - p), u.dot(side.points[1] - p)};
+        if (ends[0] > ends[1]) std::swap(ends[0], ends[1]);
+        const double first = std::max(ends[0], 0.0), last = std::min(ends[1], length);
+        if (first > last) return;
+        at(x + (first - u.dot(x - p)) * u, feature::curve(5));
+        return at(x + (last - u.dot(x - p)) * u, feature::curve(7));
+      }
+    }
+    const double t = u.dot(x - p) / length;
+    if (t > tolerance::normal_cone && t < 1 - tolerance::normal_cone) at(x, feature::curve(5));
+  }
+  /// An edge of one face: nothing bars the way but the body of the face.
+  void rim(int e) const {
     const auto& edge = surface.edges[e];
     const Vector3d p = surface.vertex(edge.v0), q = surface.vertex(edge.v1);
     const Convex segment = Convex::segment(p, q);

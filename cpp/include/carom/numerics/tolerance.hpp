@@ -45,6 +45,9 @@ inline constexpr double facing = 0.9962;
 /// points are picked, so that the pick, and with it the warm start, does not follow rounding.
 inline constexpr double equally_deep = 1e-6;
 
+/// Rad: directions nearer than this are one; the gap along them differs by less than its rounding.
+inline constexpr double same_direction = 4 * unit_roundoff;
+
 /// Sine below which an edge direction counts as perpendicular to a normal: rounding of a product of
 /// two unit vectors through two frames is about 16 u; the rest is room for meshes in single
 /// precision.
