@@ -13,6 +13,7 @@
 #include "narrow/candidates.hpp"
 #include "narrow/routines.hpp"
 #include "narrow/sdf_touch.hpp"
+#include "narrow/sdf_vertices.hpp"
 #include "narrow/support_face.hpp"
 
 namespace carom {
@@ -20,6 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 thread_local std::vector<Candidate> found;
+thread_local std::vector<NearVertex> near_vertices;
 
 void add(const Touch& t, double radius, std::uint32_t name) {
   found.push_back(
@@ -49,6 +51,39 @@ void add_both(const Touch& on_other, const Touch& on_grid, double error, double 
   }
   for (const Candidate& c : {one, two})
     if (c.point.separation <= margin) found.push_back(c);
+}
+
+/// A body that bends, or lies flat, is carried at several places: where the level is nearer than all
+/// about it, and by the vertices of the level that face the other body and are near it.
+/// @param deepest  what is known: not given a second time
+/// @param side     1: normals of candidates are those of `seen`, -1: against them
+/// @param to_a     from the grid's frame to that of the candidates
+template <class Seen>
+void add_supports(const SdfGrid& grid, const Vector3d& deepest, const Seen& seen, double margin,
+                  double side, const Frame& to_a) {
+  thread_local std::vector<Vector3d> places;
+  places.assign(1, deepest);
+  const double apart = 2 * grid.spacing;
+  const auto is_new = [&](const Vector3d& x) {
+    return std::ranges::all_of(
+        places, [&](const Vector3d& p) { return (p - x).squaredNorm() > apart * apart; });
+  };
+  const auto offer = [&](const Touch& t, double facing, int v) {
+    if (t.gap > margin || -t.normal.dot(touch(grid, t.x).normal) < facing) return false;
+    const Vector3d x = t.x - 0.5 * t.gap * t.normal;
+    found.push_back({side * (to_a.rotation * t.normal),
+                     {to_a * x, t.gap, feature::pair(feature::curve(0), feature::vertex(v))}});
+    return true;
+  };
+  for (const NearVertex& n : near_vertices) {
+    if (static_cast<int>(places.size()) > tolerance::sdf_supports) break;
+    if (!n.least || !is_new(n.touch.x)) continue;
+    const Touch t = settle_on_level(grid, n.touch.x, seen);
+    if (is_new(t.x) && offer(t, tolerance::opposing, n.vertex)) places.push_back(t.x);
+  }
+  const double near = std::min(margin, grid.spacing);
+  for (const NearVertex& n : near_vertices)
+    if (n.touch.gap <= near && is_new(n.touch.x)) offer(n.touch, tolerance::facing, n.vertex);
 }
 
 double blur(const SdfGrid& grid) {
@@ -159,11 +194,9 @@ void sdf_convex(const SdfGrid& a, const Convex& b, const Frame& b_in_a, double m
   for (const Vector3d& c : b.corners()) corner(b_in_a * c, feature::vertex(++number));
   for (int i = 0; i < 27; ++i)
     if (i != 13) offer(grown(Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).normalized()), 0);
-  double least = inf;
-  const Vector3d v = nearest_vertex(
-      a, near.inflated(margin), [&](const Vector3d& q) { return apart(q).distance; }, least);
-  Touch level;
-  if (least < inf) offer(b_in_a * apart(v).point, 0);
+  vertices_near(a, near.inflated(margin), margin, seen_by_b, near_vertices);
+  const Touch nearest = near_vertices.empty() ? Touch{} : near_vertices[0].touch;
+  if (nearest.gap < inf) offer(b_in_a * apart(nearest.x).point, 0);
   best = settle(a, best, on_b);
   best.gap = measured(a, best).gap;  // its gradient is square to the other body
   if (best.gap <= margin) {
@@ -173,10 +206,15 @@ void sdf_convex(const SdfGrid& a, const Convex& b, const Frame& b_in_a, double m
       for (std::size_t i = 0; i < patch.points.size(); ++i)
         offer(patch.points[i], patch.vertex_features[i]);
   }
-  if (least <= margin + a.spacing)
-    level = settle_on_level_seen_from(0.5 * a.box().extents().norm(), a, v, seen_by_b);
-  add_both(best, level, blur(a), margin);
-  if (found.empty() && least < 0)
+  if (nearest.gap < inf) {
+    const double off = 0.5 * a.box().extents().norm();
+    const Touch level = settle_on_level_seen_from(off, a, nearest.x, seen_by_b);
+    add_both(best, level, blur(a), margin);
+    add_supports(a, level.x, seen_by_b, margin, -1, Frame{});
+  } else {
+    add_both(best, {}, blur(a), margin);
+  }
+  if (found.empty() && nearest.gap < 0)
     part(a, b_in_a, b_in_a.translation, b.radius, [&](const Vector3d& n) {
       return Vector3d(b_in_a * b.support(-(b_in_a.rotation.transpose() * n)));
     });
@@ -219,20 +257,19 @@ void sdf_surface(const SdfGrid& a, const MeshSurface& b, const Frame& b_in_a, do
     if (t.gap <= margin && b.vertex_sharp[v]) add(measured(a, t), 0, feature::vertex(v));
   }
   const Aabb all_b = moved(b.tree.nodes[0].box, b_in_a);
-  double least;
-  const Vector3d v = nearest_vertex(
-      a, all_b.inflated(margin),
-      [&](const Vector3d& x) { return closest_point(b, a_in_b * x, inf).distance; }, least);
+  vertices_near(a, all_b.inflated(margin), margin, seen_by_b, near_vertices);
+  const Touch nearest = near_vertices.empty() ? Touch{} : near_vertices[0].touch;
   Touch level;
-  if (least <= margin + a.spacing) {
-    const Vector3d q = b_in_a * closest_point(b, a_in_b * v, inf).point;
+  if (nearest.gap < inf) {
+    const Vector3d q = b_in_a * closest_point(b, a_in_b * nearest.x, inf).point;
     if (const Touch t = touch(a, q); t.gap < best.gap) best = t;
-    level = settle_on_level_seen_from(a.spacing, a, v, seen_by_b);
+    level = settle_on_level_seen_from(a.spacing, a, nearest.x, seen_by_b);
   }
   if (best.gap < inf) best = settle(a, best, on_b);
   if (best.gap < inf) best.gap = measured(a, best).gap;
   add_both(best, level, blur(a), margin);
-  if (found.empty() && least < 0 && solid)
+  if (nearest.gap < inf) add_supports(a, level.x, seen_by_b, margin, -1, Frame{});
+  if (found.empty() && nearest.gap < 0 && solid)
     part(a, b_in_a, all_b.centre(), 0,
          [&](const Vector3d& n) { return lowest_vertex(b, b_in_a, n); });
   emit(found, tolerance::similar_normal, out);
@@ -240,19 +277,21 @@ void sdf_surface(const SdfGrid& a, const MeshSurface& b, const Frame& b_in_a, do
 
 namespace {
 
-/// Deepest point of the zero level of `body` in the other field, in the frame of `field`.
-Touch deepest(const SdfGrid& field, const SdfGrid& body, const Frame& body_in_field,
-              const Frame& field_in_body, double margin, double& least) {
+/// Deepest point of the zero level of `body` in the other field, in the frame of `field`, and what
+/// else of it is near.
+/// @param side  of the normals found, 1 where candidates are in the frame of `field`
+Touch deepest(const SdfGrid& field, const SdfGrid& body, const Frame& body_in_field, double margin,
+              double side, const Frame& to_a) {
+  const Frame field_in_body = body_in_field.inverse();
   const Aabb near = moved(field.surface->tree.nodes[0].box, field_in_body).inflated(margin);
-  Vector3d g;
-  const Vector3d v = nearest_vertex(
-      body, near, [&](const Vector3d& x) { return field.sample(body_in_field * x, g); }, least);
-  if (!(least <= margin + field.spacing + body.spacing)) return {};
-  Touch low = settle_on_level(body, v, [&](const Vector3d& x) {
-    Touch t = touch(field, body_in_field * x);
-    t.x = x, t.normal = field_in_body.rotation * t.normal;
-    return t;
-  });
+  const auto seen = [&](const Vector3d& x) {
+    const Touch t = touch(field, body_in_field * x);
+    return Touch{x, field_in_body.rotation * t.normal, t.gap};
+  };
+  vertices_near(body, near, margin, seen, near_vertices);
+  if (near_vertices.empty()) return {};
+  Touch low = settle_on_level(body, near_vertices[0].touch.x, seen);
+  add_supports(body, low.x, seen, margin, side, to_a);
   low.x = body_in_field * low.x, low.normal = body_in_field.rotation * low.normal;
   low.gap = measured(field, low).gap;
   return low;
@@ -263,10 +302,8 @@ Touch deepest(const SdfGrid& field, const SdfGrid& body, const Frame& body_in_fi
 void sdf_sdf(const SdfGrid& a, const SdfGrid& b, const Frame& b_in_a, double margin,
              std::vector<Manifold>& out) {
   found.clear();
-  const Frame a_in_b = b_in_a.inverse();
-  double least_a, least_b;
-  const Touch on_b = deepest(a, b, b_in_a, a_in_b, margin, least_b);
-  Touch on_a = deepest(b, a, a_in_b, b_in_a, margin, least_a);
+  const Touch on_b = deepest(a, b, b_in_a, margin, 1, b_in_a);
+  Touch on_a = deepest(b, a, b_in_a.inverse(), margin, -1, Frame{});
   on_a.x = b_in_a * on_a.x;
   on_a.normal = b_in_a.rotation * on_a.normal;
   const bool meet = std::min(on_a.gap, on_b.gap) < std::numeric_limits<double>::infinity();

@@ -5,9 +5,7 @@
 // bodies is preferred: a corner of either that pokes into a face of the other is found.
 #pragma once
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -33,42 +31,6 @@ struct Level {
 
 /// Takes the point to where the gradient leads on the zero level; false where it leads to none.
 [[nodiscard]] bool onto_level(const SdfGrid& grid, Level& at);
-
-/// The point of the grid's surface mesh with the least gap(x), a signed distance. Best first: of a
-/// box of them, none is nearer than its middle less its half diagonal.
-/// @param least  that gap, m; infinite when no box overlaps `near`
-template <class Gap>
-Eigen::Vector3d nearest_vertex(const SdfGrid& grid, const Aabb& near, const Gap& gap,
-                               double& least) {
-  const MeshTree& tree = grid.surface->tree;
-  const double inf = std::numeric_limits<double>::infinity();
-  const auto bound = [&](int i) {
-    const Aabb& box = tree.nodes[i].box;
-    return box.overlaps(near) ? gap(box.centre()) - 0.5 * box.extents().norm() : inf;
-  };
-  Eigen::Vector3d best = Eigen::Vector3d::Zero();
-  least = inf;
-  std::array<std::pair<double, int>, 128> stack;  // depth is log2 of the faces: 2 x 64 is never met
-  int top = 0;
-  stack[top++] = {bound(0), 0};
-  while (top > 0) {
-    const auto [low, i] = stack[--top];
-    if (!(low < least)) continue;
-    const MeshTree::Node& node = tree.nodes[i];
-    for (int k = 0; k < node.count; ++k)
-      for (int c = 0; c < 3; ++c) {
-        const Eigen::Vector3d v = grid.surface->corner(tree.order[node.first + k], c);
-        if (const double d = gap(v); d < least) least = d, best = v;
-      }
-    if (node.count > 0) continue;
-    std::pair<double, int> one{bound(i + 1), i + 1}, two{0, tree.nodes[i + 1].end};
-    two.first = bound(two.second);
-    if (one.first < two.first) std::swap(one, two);
-    stack[top++] = one;
-    stack[top++] = two;  // the nearer is looked at first
-  }
-  return best;
-}
 
 /// Length of the next step down a gradient: that of the last one over the turn of the gradient
 /// along it, which is the radius of what is met. A few steps where a fixed length takes hundreds.

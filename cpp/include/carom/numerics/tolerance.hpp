@@ -101,6 +101,10 @@ inline constexpr double sdf_samples = 1e8;
 /// degrees, the angle of `facing`.
 inline constexpr double similar_normal = 0.0872;
 
+/// Places where a grid lies on another body that are searched for one by one, nearest first. A body
+/// stands on three; what bends more often is held by the vertices next to it as well. Choice.
+inline constexpr int sdf_supports = 8;
+
 /// Length of an interpolated distance gradient (1 on the true one) below which its direction is not
 /// trusted: the mean of two gradients more than 120 degrees apart is shorter than this.
 inline constexpr double sdf_gradient = 0.5;
