@@ -22,7 +22,7 @@ using Status = FirstContact::Status;
 
 constexpr int many_faces = 32;  // more of them in one stretch of the way: halve the stretch
 constexpr int most_halvings = 12;
-constexpr int grid_queries = 64;   // half of the gap each: 20 get from 1 m to 1 um; each is dear
+constexpr int grid_queries = 24;   // half of the gap each: 20 get from 1 m to 1 um; each is dear
 constexpr int grid_halvings = 16;  // of half a cell of way: 0.02 m to 0.3 um
 
 /// A shape without parts, where it sits in its body.
@@ -201,9 +201,10 @@ struct Search {
     best.point = 0.5 * (near.point_a + near.point_b);
   }
 
-  /// A distance grid and anything: nothing may move farther than the gap.
+  /// A distance grid and anything: nothing may move farther than the gap. What stays near without
+  /// touching, sliding past, is followed as what touches is.
   void grid(const Leaf& a, const Leaf& b) {
-    if (!only_now && target <= 0) return grid_from_touch(a, b);
+    if (!only_now && target <= 0) return grid_from_touch(a, b, from);
     double t = from;
     for (int i = 0; t < end || i == 0; ++i) {
       const double most = way(path_a, a.radius, t, end) + way(path_b, b.radius, t, end);
@@ -212,9 +213,9 @@ struct Search {
       if (only_now || !(near.distance <= reach)) return;
       const double room = near.distance - target;
       const bool touches = room <= 0.5 * tolerance::sweep_clear;
-      if (touches || i == grid_queries)
-        return meet(near, t, touches ? Status::contact : Status::gave_up);
+      if (touches) return meet(near, t, Status::contact);
       if (room >= most) return;
+      if (i == grid_queries) return grid_from_touch(a, b, t);
       t += tolerance::sdf_stride * (end - t) * room / most;
     }
   }
@@ -222,17 +223,17 @@ struct Search {
   /// What touches or overlaps at the start: there is no gap to measure a stride by, and the
   /// gradient inside is no bound. Looks half a cell of way apart, as nothing in a grid is thinner;
   /// where one is deeper than the start may become, halved to the time it did.
-  void grid_from_touch(const Leaf& a, const Leaf& b) {
+  void grid_from_touch(const Leaf& a, const Leaf& b, double start) {
     double cell = std::numeric_limits<double>::infinity();
     for (const Leaf* leaf : {&a, &b})
       if (leaf->is_grid) cell = std::min(cell, std::get<Sdf>(*leaf->shape).grid->spacing);
-    const double most = way(path_a, a.radius, from, end) + way(path_b, b.radius, from, end);
+    const double most = way(path_a, a.radius, start, end) + way(path_b, b.radius, start, end);
     const double looks =
         std::clamp(std::ceil(2 * most / cell), 1.0, double{tolerance::sweep_queries});
     const double reach = 2 * tolerance::sweep_clear;
-    double low = from;
+    double low = start;
     for (int i = 1; i <= looks; ++i) {
-      double high = from + (end - from) * i / looks;
+      double high = start + (end - start) * i / looks;
       if (look(a, b, high, reach).distance >= target) {
         low = high;
         continue;
