@@ -43,7 +43,7 @@ Shape cube_grid() {
 }
 
 /// One particle that came through the top of a cube in the last step, nearer to its side.
-Scene corner(bool chain) {
+Scene corner(bool chain, Ccd ccd = Ccd::automatic) {
   Scene scene;
   scene.add({.name = "cube", .shape = cube_grid(), .is_static = true});
   TriangleMesh::Vertices one = TriangleMesh::Vertices::Zero(1, 3);
@@ -53,7 +53,7 @@ Scene corner(bool chain) {
              .pose = {.position = {0.3, 0.013, 0.25}},
              .velocity = {0, 0, -0.35 / dt},
              .friction = 0,
-             .ccd = Ccd::never});  // the sweep takes its normals from the plain gradient
+             .ccd = ccd});
   scene.effects.emplace_back(Repulsion{.interior_normals = chain});
   return scene;
 }
@@ -143,8 +143,10 @@ TEST(Repulsion, ConservesMomentumBetweenTwoBodies) {
   EXPECT_NEAR(simulation.energy().repulsion, 0.375 * std::pow(depth / dt, 2), settled * 10);
 }
 
-TEST(InteriorNormals, LeaveACornerByTheFaceTheParticleCameThrough) {
-  Simulation simulation(corner(true));
+class InteriorNormals : public ::testing::TestWithParam<Ccd> {};
+
+TEST_P(InteriorNormals, LeaveACornerByTheFaceTheParticleCameThrough) {
+  Simulation simulation(corner(true, GetParam()));  // the sweep leaves what lies inside to them
   simulation.step(dt);
   EXPECT_EQ(simulation.report().repulsion.swept_hit, 1);
   EXPECT_EQ(simulation.report().repulsion.gradient, 0);
@@ -159,7 +161,10 @@ TEST(InteriorNormals, LeaveACornerByTheFaceTheParticleCameThrough) {
   EXPECT_NEAR(simulation.states().position[1].x(), 0.3, 1e-6);  // never sideways
 }
 
-TEST(InteriorNormals, ThePlainGradientLeavesByTheWrongFace) {
+INSTANTIATE_TEST_SUITE_P(Followed, InteriorNormals,
+                         ::testing::Values(Ccd::never, Ccd::automatic, Ccd::always));
+
+TEST(PlainGradient, LeavesByTheWrongFace) {
   Simulation simulation(corner(false));
   simulation.advance(0.2);
   // Negative control: out through the side, 0.2 m away, 0.25 m under the top it came through.
