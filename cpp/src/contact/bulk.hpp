@@ -56,6 +56,7 @@ struct BulkRow {
   Wide against_static;                  ///< 1 or 0
   Wide tangent_step;                    ///< kg, 1 / largest eigenvalue of the tangent mobility
   Wide twist_mass;                      ///< kg m^2; 0 for single points
+  Wide turn_a[3], turn_b[3];            ///< what a unit twist does to both: I^-1 n
   Wide slip[3];                         ///< N s of the small step, tangential, pressing
   Wide twist;                           ///< N m s of the small step, about the normal, pressing
   Wide slip_relaxed[3], twist_relaxed;  ///< without push

@@ -34,13 +34,16 @@ inline void push_normal(Speeds& a, Speeds& b, const V3& n, const BulkPoint& p, V
   b.w = add_times(b.w, impulse, load(p.answer_b));
 }
 
-inline void push_tangent(Speeds& a, Speeds& b, const BulkRow& row, const V3& n, const V3& f,
-                         V twist) {
+inline void push_tangent(Speeds& a, Speeds& b, const BulkRow& row, const V3& f) {
   a.v = add_times(a.v, -a.inverse_mass, f);
   b.v = add_times(b.v, b.inverse_mass, f);
-  const V3 twisted = times(twist, n);
-  a.w = difference(a.w, multiply(row.inertia_a, sum(cross(load(row.arm_a), f), twisted)));
-  b.w = sum(b.w, multiply(row.inertia_b, sum(cross(load(row.arm_b), f), twisted)));
+  a.w = difference(a.w, multiply(row.inertia_a, cross(load(row.arm_a), f)));
+  b.w = sum(b.w, multiply(row.inertia_b, cross(load(row.arm_b), f)));
+}
+
+inline void twist_both(Speeds& a, Speeds& b, const BulkRow& row, V twist) {
+  a.w = add_times(a.w, -twist, load(row.turn_a));
+  b.w = add_times(b.w, twist, load(row.turn_b));
 }
 
 inline V normal_speed(const Speeds& a, const Speeds& b, const V3& n, const BulkPoint& p) {
@@ -85,7 +88,8 @@ inline void warm_start_row(const BulkBatch& batch, const BulkRow& row) {
     const BulkPoint& p = batch.points[row.first + k];
     push_normal(a, b, n, p, load(p.impulse));
   }
-  push_tangent(a, b, row, n, load(row.slip), load(row.twist));
+  push_tangent(a, b, row, load(row.slip));
+  twist_both(a, b, row, load(row.twist));
   scatter_speeds(batch, row.a, a);
   scatter_speeds(batch, row.b, b);
 }
@@ -110,13 +114,11 @@ template <bool pressing>
   const V twist_before = load(row.twist);
   V twist = twist_before - load(row.twist_mass) * dot(n, difference(b.w, a.w));
   twist = maximum(-twist_bound, minimum(twist_bound, twist));
-  const V3 turned = times(twist - twist_before, n);
-  a.w = difference(a.w, multiply(row.inertia_a, turned));
-  b.w = sum(b.w, multiply(row.inertia_b, turned));
+  twist_both(a, b, row, twist - twist_before);
   const V3 before = load(row.slip);
   const V3 after =
       within(add_times(before, -load(row.tangent_step), slip_speed(a, b, row, n)), bound);
-  push_tangent(a, b, row, n, difference(after, before), splat(0));
+  push_tangent(a, b, row, difference(after, before));
   if constexpr (pressing) {
     store(row.slip, after);
     store(row.twist, twist);

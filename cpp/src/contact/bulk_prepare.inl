@@ -128,7 +128,9 @@ inline void prepare_row(const BulkBatch& batch, const BulkContacts& contacts, Bu
   store(row.tangent_step, taken * inverse_or_zero(largest_mobility(a, b, ra, rb, n)));
   store(row.slip, times(share, slip));
   const V several = at_lane(row.lane_points, 1);
-  const V spin = dot(n, sum(multiply(a.inertia, n), multiply(b.inertia, n)));
+  const V3 turn_a = multiply(a.inertia, n), turn_b = multiply(b.inertia, n);
+  store(row.turn_a, turn_a), store(row.turn_b, turn_b);
+  const V spin = dot(n, sum(turn_a, turn_b));
   store(row.twist_mass, several * inverse_or_zero(spin));
   store(row.twist, several * twist * share);
   store(row.slip_total, {zero, zero, zero});

@@ -40,7 +40,7 @@ class ManifoldCache {
   struct Placed {
     const Shape& shape;
     const Frame& frame;
-    Eigen::Quaterniond orientation;
+    const Eigen::Quaterniond& orientation;
   };
   /// Appends the pair's manifolds to `out`, found again or carried along. `reach`: m, length of the
   /// smaller body, to which the motion that is let pass is proportional.

@@ -134,8 +134,8 @@ void run_contacts(World& world) {
   world.sweep.left.clear(), world.sweep.kept.clear(), world.sweep.free.clear();
   world.manifold_cache.begin_step();
   const auto placed = [&](int i) {
-    const Eigen::Quaterniond q = world.states.orientation[i] * world.states.axes_b[i].conjugate();
-    return contact::ManifoldCache::Placed{world.scene.bodies[i].shape, world.frames[i], q};
+    return contact::ManifoldCache::Placed{world.scene.bodies[i].shape, world.frames[i],
+                                          world.turns[i]};
   };
   for (const BodyPair& pair : world.pairs) {
     world.manifolds.clear();

@@ -53,7 +53,8 @@ void make_frames(World& world) {
   for (const BodyPair& pair : world.pairs)
     for (const int i : {pair.a, pair.b})
       if (!std::exchange(world.framed[i], 1)) {
-        world.frames[i] = Frame(s.pose(i));
+        const Pose pose = s.pose(i);
+        world.frames[i] = Frame(pose), world.turns[i] = pose.orientation;
         world.swing[i] =
             s.moves[i] ? world.dt * s.angular_speed(i) * world.sweep.turning_radius[i] : 0;
       }
@@ -64,7 +65,7 @@ void make_frames(World& world) {
 void run_pairs(World& world) {
   const BodyStates& s = world.states;
   const std::size_t n = s.mass.size();
-  world.boxes.resize(n), world.frames.resize(n);
+  world.boxes.resize(n), world.frames.resize(n), world.turns.resize(n);
   world.swing.resize(n), world.reach.resize(n);
   SweepWork& w = world.sweep;
   w.fast.assign(n, 0);
