@@ -3,6 +3,7 @@
 """Runs the same scenes in every built engine and prints one table.
 
     run_peers.py --bin DIR --json OUT.json --engines own,physx-pgs --scenes S1,S2 --reps 5
+    run_peers.py --bin DIR --json OUT.json --table-only --csv OUT.csv
 
 Every run is its own process. Repeats are interleaved over the engines so that machine load hits
 all of them alike; the table shows the median over repeats and the spread. ms/step is process CPU
@@ -10,6 +11,8 @@ time per step (shared machine); the JSON also has wall times.
 """
 
 import argparse
+import csv
+import datetime
 import json
 import os
 import statistics
@@ -97,6 +100,11 @@ SCENES = {
         60,
         ["stands", "top_drift_mm", "top_sink_mm", "pen_max_mm"],
     ),
+    "S5-stack-30": (
+        {"scene": "stack", "n": 30},
+        60,
+        ["stands", "top_drift_mm", "top_sink_mm", "pen_max_mm"],
+    ),
     "S5-stack10-1:100": (
         {"scene": "stack", "n": 10, "ratio": 100},
         60,
@@ -104,6 +112,11 @@ SCENES = {
     ),
     "S5-stack10-1:1000": (
         {"scene": "stack", "n": 10, "ratio": 1000},
+        60,
+        ["stands", "top_drift_mm", "top_sink_mm", "pen_max_mm"],
+    ),
+    "S5-stack10-1:1000000": (
+        {"scene": "stack", "n": 10, "ratio": 1000000},
         60,
         ["stands", "top_drift_mm", "top_sink_mm", "pen_max_mm"],
     ),
@@ -274,6 +287,28 @@ def print_table(data: dict[str, list[dict]]) -> None:
             print(f"  {engine:16} {threads:>2} {time_ms} {row['spread']:7.2f}  {figures}")
 
 
+FIGURES = ("ms_cpu_mean", "ms_cpu_settled", "stands", "top_drift_mm", "top_sink_mm", "pen_max_mm")
+FIGURES += ("pen_mean_mm", "overlapping_pairs", "mean_v2_half")
+
+
+def write_csv(data: dict[str, list[dict]], path: Path) -> None:
+    """Time and quality side by side, a line per scene and engine, with machine and date."""
+    info = Path("/proc/cpuinfo").read_text().splitlines()
+    model = next(line.split(":")[1].strip() for line in info if line.startswith("model name"))
+    with path.open("w", newline="") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        extra = ("hz", "threads", "repeats", "max_over_min", "machine", "cpus", "date")
+        rows.writerow(("scene", "engine", *FIGURES, *extra))
+        for key, runs in data.items():
+            scene, engine, threads = key.split("|")
+            row = summary(runs) or {}
+            figures = [f"{row[f]:.4g}" if f in row else "" for f in FIGURES]
+            hz = SCENES[scene][0].get("hz", 60)
+            end = (hz, threads, row.get("reps", 0), f"{row.get('spread', 0):.2f}")
+            today = datetime.date.today().isoformat()
+            rows.writerow((scene, engine, *figures, *end, model, os.cpu_count(), today))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -286,6 +321,7 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--quick", action="store_true", help="one scene of each kind")
     parser.add_argument("--table-only", action="store_true", help="print the table of --json")
+    parser.add_argument("--csv", type=Path, help="writes what --json holds as one table")
     args = parser.parse_args()
     engines = [
         name
@@ -308,6 +344,8 @@ def main() -> None:
         print(scene, engine, run.get("ms_cpu_mean", run.get("error", "")), file=sys.stderr)
         args.json.write_text(json.dumps(data, indent=0))
     print_table(data)
+    if args.csv:
+        write_csv(data, args.csv)
 
 
 if __name__ == "__main__":

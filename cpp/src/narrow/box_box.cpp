@@ -32,8 +32,9 @@ struct Axis {
 };
 
 /// The axis of least overlap or largest gap; beyond `margin` as soon as one says so.
+/// @param faces  the best of either's faces
 Axis best_axis(const Vector3d& ha, const Vector3d& hb, const Matrix3d& R, const Vector3d& t,
-               double margin, double bias) {
+               double margin, double bias, Axis (&faces)[2]) {
   Axis best, other;
   const Matrix3d A = R.cwiseAbs();
   for (int i = 0; i < 3; ++i) {
@@ -46,6 +47,7 @@ Axis best_axis(const Vector3d& ha, const Vector3d& hb, const Matrix3d& R, const 
     const double s = std::abs(d) - (hb[j] + A(0, j) * ha[0] + A(1, j) * ha[1] + A(2, j) * ha[2]);
     if (s > other.separation) other = {s, Of::face_b, 0, j, d, 1};
   }
+  faces[0] = best, faces[1] = other;
   if (other.separation > best.separation + bias) best = other;
   if (best.separation > margin) return best;
   other.separation = best.separation + bias;
@@ -96,6 +98,13 @@ int edge_towards(const Vector3d& half, const Vector3d& n, int axis, Vector3d (&e
   return -1;
 }
 
+/// Of the face whose normal is n, an axis of the box.
+int face_number(const Vector3d& n) {
+  int axis;
+  n.cwiseAbs().maxCoeff(&axis);
+  return 2 * axis + (n[axis] > 0 ? 1 : 0);
+}
+
 /// The face most along n, n in the box's frame. Returns the cosine between them.
 double face_towards(const Vector3d& half, const Vector3d& n, const Frame* frame, Quad& out) {
   int axis;
@@ -121,8 +130,22 @@ void box_box(const Vector3d& half_a, const Vector3d& half_b, const Frame& b_in_a
   const double size = 2 * (half_a.norm() + half_b.norm());
   const double bias = tolerance::axis_preference * size;
   const Matrix3d& R = b_in_a.rotation;
-  const Axis best = best_axis(half_a, half_b, R, b_in_a.translation, margin, bias);
+  Axis faces[2];
+  const Axis best = best_axis(half_a, half_b, R, b_in_a.translation, margin, bias, faces);
   if (best.separation > margin) return;
+  if (std::abs(faces[0].separation - faces[1].separation) < tolerance::edge_on_edge * size &&
+      R.cwiseAbs().maxCoeff() > 1 - tolerance::parallel_edges) {
+    const Vector3d na = direction(faces[0], R), nb = direction(faces[1], R);
+    const Vector3d in_b = -(R.transpose() * nb);
+    const FaceAxis a{faces[0].separation, na, face_number(na)},
+        b{faces[1].separation, nb, face_number(in_b)};
+    if (Manifold m;
+        edge_on_edge(scratch_polytope(Box{2 * half_a}, 0), a, scratch_polytope(Box{2 * half_b}, 1),
+                     b, b_in_a, size, m)) {
+      if (m.points[0].separation <= margin) out.push_back(m);
+      return;
+    }
+  }
 
   const Vector3d n = direction(best, R), n_b = -(R.transpose() * n);
   const double facing_a = face_towards(half_a, n, nullptr, face_a);

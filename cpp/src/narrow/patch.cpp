@@ -73,22 +73,30 @@ void reduce(std::span<const ContactPoint> points, const Eigen::Vector3d& normal,
   keep(best(points, slack, slack, [&](const ContactPoint& p) {  // of the deepest, the farthest out
     return p.separation <= depth + slack ? (p.position - centre).norm() : -1.0;
   }));
+  // What lies higher over the plane counts as so much less far out: of a thin body the upper corners
+  // are within reach as well, and would else be taken for the lower ones.
+  const auto height = [&](const ContactPoint& p) { return p.separation - depth; };
   const Eigen::Vector3d a = out.points[0].position;
-  keep(best(points, slack, slack, [&](const ContactPoint& p) { return (p.position - a).norm(); }));
+  keep(best(points, slack, slack,
+            [&](const ContactPoint& p) { return (p.position - a).norm() - height(p); }));
   const Eigen::Vector3d ab = out.points[1].position - a;
+  const double length = ab.norm(), thin = slack * size;
   const auto area = [&](const ContactPoint& p) { return normal.dot(ab.cross(p.position - a)); };
-  const double thin = slack * size;
-  const int left = best(points, thin, slack, area);
-  const int right = best(points, thin, slack, [&](const ContactPoint& p) { return -area(p); });
-  if (area(points[left]) > thin) keep(left);
-  if (area(points[right]) < -thin) keep(right);
+  const auto beside = [&](double side) {
+    return [&, side](const ContactPoint& p) { return side * area(p) - length * height(p); };
+  };
+  const auto to_left = beside(1), to_right = beside(-1);
+  const int left = best(points, thin, slack, to_left), right = best(points, thin, slack, to_right);
+  if (to_left(points[left]) > thin) keep(left);
+  if (to_right(points[right]) > thin) keep(right);
   if (out.count < 4 && out.count > 2) {  // one side only: the corner that adds most to the triangle
     const Eigen::Vector3d c = out.points[2].position;
     const auto outside = [&](const ContactPoint& p) {
       const Eigen::Vector3d b = out.points[1].position;
       const double turn = area(out.points[2]) > 0 ? 1 : -1;
-      return std::max(turn * normal.dot((p.position - b).cross(c - b)),
-                      turn * normal.dot((p.position - c).cross(a - c)));
+      return std::max(
+          turn * normal.dot((p.position - b).cross(c - b)) - (c - b).norm() * height(p),
+          turn * normal.dot((p.position - c).cross(a - c)) - (a - c).norm() * height(p));
     };
     const int fourth = best(points, thin, slack, outside);
     if (outside(points[fourth]) > thin) keep(fourth);

@@ -114,6 +114,11 @@ void polytope_polytope(const Polytope& a, const Polytope& b, const Frame& b_in_a
   if (by_edges.separation > margin) return;
 
   const double bias = tolerance::axis_preference * size_of(a, b);
+  if (Manifold m; edge_on_edge(a, {by_a.separation, by_a.normal, by_a.a}, b,
+                               {by_b.separation, by_b.normal, by_b.a}, b_in_a, size_of(a, b), m)) {
+    if (m.points[0].separation <= margin) out.push_back(m);
+    return;
+  }
   Axis best = by_b.separation > by_a.separation + bias ? by_b : by_a;
   const bool edges = by_edges.separation > best.separation + bias;
   if (edges) best = by_edges;

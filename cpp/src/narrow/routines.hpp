@@ -29,6 +29,17 @@ void half_space_sdf(const Eigen::Vector3d& normal, double offset, const SdfGrid&
 
 void convex_convex(const Convex& a, const Convex& b, const Frame& b_in_a, double margin,
                    std::vector<Manifold>& out);
+/// How far two polytopes are apart along the normal of a face of one of them.
+struct FaceAxis {
+  double separation;       ///< m
+  Eigen::Vector3d normal;  ///< from a to b, frame of a
+  int face;
+};
+/// The contact of two edges that lie along one another; false where the two best faces do not meet in
+/// such a pair, nearly touching.
+/// @param size  m, of both together
+bool edge_on_edge(const Polytope& pa, const FaceAxis& a, const Polytope& pb, const FaceAxis& b,
+                  const Frame& b_in_a, double size, Manifold& out);
 /// For few faces: separating axes while they overlap, convex_convex while apart.
 void polytope_polytope(const Polytope& a, const Polytope& b, const Frame& b_in_a, double margin,
                        std::vector<Manifold>& out);

@@ -53,6 +53,10 @@ inline constexpr double same_direction = 4 * unit_roundoff;
 /// precision.
 inline constexpr double normal_cone = 1e-7;
 
+/// Where two parallel edges meet, the contact's direction turns from one face's normal to the
+/// other's over this share of the size of the bodies: 0.2 mm of a metre, what soft contacts sink.
+inline constexpr double edge_on_edge = 1e-4;
+
 /// Sine of the angle below which two edges count as parallel and have no crossing: the direction of
 /// their cross product would be off by 4 u / 1e-7 = 4e-9 rad.
 inline constexpr double parallel_edges = 1e-7;
