@@ -95,12 +95,31 @@ double mechanical_energy(const World& world, const SweepEvent& event, const Vect
   return sum;
 }
 
+/// J that contacts of the solver take from a body over the step, and have not yet taken at time t.
+double still_to_take(const World& world, int i, const Vector3d& gravity, double t) {
+  const BodyStates& s = world.states;
+  const SweepWork& w = world.sweep;
+  if (!s.moves[i] || w.paths[i].start > 0 || !world.solver.motion().decided[i]) return 0;
+  const Vector3d v = world.velocity_before[i];
+  const Vector3d l = w.orientation_before[i].conjugate() * world.angular_momentum_before[i];
+  const double before = 0.5 * (s.mass[i] * v.squaredNorm() +
+                               l.dot(s.inverse_moments[i].cwiseProduct(l))) -
+                        s.mass[i] * gravity.dot(w.position_before[i]);
+  const double after = s.kinetic_energy(i) - s.mass[i] * gravity.dot(s.position[i]);
+  return (1 - t / world.dt) * std::max(0.0, before - after);
+}
+
 /// Contacts of the solver act over the whole step, so a body they push has at a time within it no
-/// speed that is quite its own. What a hit then adds to the energy by its timing is taken back from
-/// the motion about the common centre: momentum stays.
-void take_back(World& world, const SweepEvent& event, const Vector3d& gravity, double allowed) {
+/// speed that is quite its own. What they would have taken after a hit they do not take: `left`, J.
+/// What the hit adds to the energy by its timing beyond that is taken back from the motion about the
+/// common centre: momentum stays.
+void take_back(World& world, const SweepEvent& event, const Vector3d& gravity, double allowed,
+               double left) {
   BodyStates& s = world.states;
-  const double energy = mechanical_energy(world, event, gravity), excess = energy - allowed;
+  const double energy = mechanical_energy(world, event, gravity);
+  const double not_taken = std::clamp(energy - allowed, 0.0, left);
+  world.dissipated -= not_taken;
+  const double excess = energy - allowed - not_taken;
   const bool both = s.moves[event.a] && s.moves[event.b];
   const double ma = s.mass[event.a], mb = s.mass[event.b];
   const Vector3d common =
@@ -132,7 +151,11 @@ void strike(World& world, const SweepEvent& event) {
   const double dissipated_before = world.dissipated;
   for (const int row : {event.a, event.b}) wake(world, row);
   const double energy = mechanical_energy(world, event, gravity);
-  for (const int row : {event.a, event.b}) go_to(world, row, t);
+  double left = 0;
+  for (const int row : {event.a, event.b}) {
+    if (timed_by_step) left += still_to_take(world, row, gravity, t);
+    go_to(world, row, t);
+  }
   find_points(world, event);
   const Vector3d& n = event.contact.normal;
   Vector3d pull_a = w.pull[event.a], pull_b = w.pull[event.b];
@@ -166,7 +189,7 @@ void strike(World& world, const SweepEvent& event) {
   lay_path(world, event.a, t, pull_a);
   lay_path(world, event.b, t, pull_b);
   if (timed_by_step)
-    take_back(world, event, gravity, energy - (world.dissipated - dissipated_before));
+    take_back(world, event, gravity, energy - (world.dissipated - dissipated_before), left);
 }
 
 }  // namespace carom

@@ -345,6 +345,10 @@ inline constexpr double sweep_touch = 2e-5;
 /// is not past a sheet that its surface had not reached: the next step pushes it the right way.
 inline constexpr double sweep_share = 1.0;
 
+/// Share of the thinner body's thickness by which bodies that the solver holds apart may overlap
+/// within a step without being followed. Half: the next step finds them on the side they are on.
+inline constexpr double sweep_held = 0.5;
+
 /// rad: up to this turn in a step two bodies that turn together count as at rest against each
 /// other: the second order left out, turn^2 / 2 of their distance, is 5 % of it.
 inline constexpr double small_turn = 0.3;

@@ -80,6 +80,25 @@ bool bounces_freely(const World& world, double restitution) {
          });
 }
 
+/// Whether a point of the pair at hand comes nearer by more than the thickness of the thinner body,
+/// before the forces of this step: what slides or rolls, however fast, and what only its weight
+/// would carry through its own thickness, is held by the solver.
+bool closes(const World& world, const BodyPair& pair) {
+  const BodyStates& s = world.states;
+  const SweepWork& w = world.sweep;
+  const double thin = std::min(s.moves[pair.a] ? w.thickness[pair.a] : w.thickness[pair.b],
+                               s.moves[pair.b] ? w.thickness[pair.b] : w.thickness[pair.a]);
+  const auto velocity = [&](int i, const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(s.velocity_at(i, x) - s.velocity[i] + world.velocity_before[i]);
+  };
+  return std::ranges::any_of(world.manifolds, [&](const Manifold& m) {
+    return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) {
+      const Eigen::Vector3d u = velocity(pair.b, p.position) - velocity(pair.a, p.position);
+      return -world.dt * m.normal.dot(u) > tolerance::sweep_share * thin;
+    });
+  });
+}
+
 /// Whether the sweep finds these contacts at their time: the pair is apart, and one of them is fast
 /// or bounces for longer than a step. What meets in the step after this one counts as well: the
 /// small steps of the solver look one ahead, and stop there what should bounce.
@@ -89,16 +108,13 @@ bool left_to_sweep(World& world, const BodyPair& pair, double restitution, doubl
   SweepWork& w = world.sweep;
   if (w.fast[pair.a] || w.fast[pair.b]) {
     const BodyStates& states = world.states;
-    const auto is_fast_at = [&](const Array3& velocity) {
-      const auto motion = [&](int i) {
-        return Motion{states.position[i], world.dt * velocity[i],
-                      world.dt * states.angular_velocity(i)};
-      };
-      return is_fast(world, pair.a, pair.b, motion(pair.a), motion(pair.b));
+    const auto motion = [&](int i) {
+      return Motion{states.position[i], world.dt * states.velocity[i],
+                    world.dt * states.angular_velocity(i)};
     };
-    // What only the forces of this step would make fast lies or leans on what the solver holds it by:
-    // a card falls through its own thickness within a step that starts from rest.
-    if (is_fast_at(states.velocity) && is_fast_at(world.velocity_before)) return true;
+    if (is_fast(world, pair.a, pair.b, motion(pair.a), motion(pair.b)) &&
+        (restitution > 0 || closes(world, pair)))
+      return true;
   }
   if (!(restitution > 0) || !world.plan.runs(StageKind::sweep)) return false;
   const BodyStates& s = world.states;
