@@ -22,10 +22,11 @@ void patch_along(const Convex& a, const Convex& b, const Frame& b_in_a, const Se
     clip(face_a, face_b, s.normal, margin, points);
   // The patch is flat where the bodies are nearly so: the deepest point itself must not be lost.
   double least = std::numeric_limits<double>::infinity(), size = 0;
-  for (const ContactPoint& p : points) {
-    least = std::min(least, p.separation);
-    size = std::max(size, (p.position - points[0].position).norm());
-  }
+  for (const ContactPoint& p : points) least = std::min(least, p.separation);
+  // Measured by the faces, not by the patch: where two edges cross it is a point.
+  for (const Face* face : {&face_a, &face_b})
+    for (const Eigen::Vector3d& p : face->points)
+      size = std::max(size, (p - face->points[0]).norm());
   if (!(least <= s.distance + tolerance::equally_deep * size))
     points.push_back(
         {0.5 * (s.point_a + s.point_b), s.distance,

@@ -104,6 +104,44 @@ TEST(ABlockGrid, PokesIntoABoxByItsCorner) {
   }
 }
 
+// Three balls on a disc: a body that stands on the deepest of its feet alone would rock for ever.
+TEST(AGrid, StandsOnAllItsFeet) {
+  const auto distance = [](const Vector3d& p) {
+    double least = std::hypot(std::max(std::hypot(p.x(), p.y()) - 0.2, 0.0),
+                              std::max(std::abs(p.z() - 0.02) - 0.02, 0.0));
+    for (int k = 0; k < 3; ++k) {
+      const double angle = 2 * M_PI * k / 3;
+      least = std::min(least,
+                       (p - Vector3d(0.15 * std::cos(angle), 0.15 * std::sin(angle), 0)).norm() - 0.1);
+    }
+    return least;
+  };
+  const Shape tripod = grid_of(distance, {0.3, 0.3, 0.12});
+  TriangleMesh::Vertices corners(4, 3);
+  corners << -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0;
+  TriangleMesh::Faces faces(2, 3);
+  faces << 0, 1, 2, 0, 2, 3;
+  const Shape sheet = Mesh(TriangleMesh{corners, faces});
+  const Pose up{.position = {0, 0, 0.099}};
+  for (const Shape& floor : {sheet, Shape{Box{{2, 2, 1}}}}) {
+    const Pose at{.position = {0, 0, std::holds_alternative<Box>(floor) ? -0.5 : 0}};
+    bool found[3] = {false, false, false};
+    for (const Manifold& m : contacts(floor, at, tripod, up, 0.02)) {
+      EXPECT_GT(m.normal.z(), 0.99);
+      for (int i = 0; i < m.count; ++i)
+        for (int k = 0; k < 3; ++k) {
+          const double angle = 2 * M_PI * k / 3;
+          const Vector3d foot(0.15 * std::cos(angle), 0.15 * std::sin(angle), 0);
+          // A foot is round: within a cell of its middle it is as deep as there, but for the error
+          // of the grid, h^4/384 9 / 0.1^3 along each axis.
+          found[k] |= (m.points[i].position - foot).norm() < spacing &&
+                      std::abs(m.points[i].separation + 0.001) < 1.2e-5;
+        }
+    }
+    for (const bool foot : found) EXPECT_TRUE(foot);
+  }
+}
+
 /// The level over a point of a plane, up to a cell along its normal, by halving; far off where there
 /// is none.
 Vector3d level_over(const SdfGrid& grid, const Vector3d& at, const Vector3d& n) {
