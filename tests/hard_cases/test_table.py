@@ -9,7 +9,6 @@ from carom.commands.stress import as_markdown
 from carom.stress import GROUPS, Outcome, cases_of, run_case
 
 KNOWN = {
-    "house_of_two_cards": "parallel edges meet with the normal of a face, not of the pair",
     "mirror_symmetry": "0.4 m: islands are solved in the order of rows",
 }
 """Bugs open in the library, each a row of the table that fails."""

@@ -72,7 +72,9 @@ void Simulation::set_state(BodyId id, const Pose& pose, const Eigen::Vector3d& v
   if (!world_->states.moves[row] && !(velocity.isZero(0) && angular_velocity.isZero(0)))
     throw InvalidInput("velocity", with_unit(velocity.transpose(), "m/s"),
                        "must be 0 for a static body");
-  wake(*world_, row);
+  // What stands may have carried anything that sleeps.
+  wake(*world_, world_->scene.bodies[row].is_static ? -1 : row);
+  world_->plan_is_stale = true;
   world_->states.set(row, {pose.position, q}, velocity, angular_velocity);
 }
 

@@ -67,6 +67,7 @@ void refresh_plan(World& world) {
   if (!world.asleep.empty())
     std::erase_if(world.plan.movers, [&](int i) { return !world.states.moves[i]; });
   if (world.plan.runs(StageKind::pairs)) measure_bodies(world);
+  world.boxed.assign(world.scene.bodies.size(), 0);
   world.plan_is_stale = false;
 }
 
@@ -76,7 +77,18 @@ StageTime& time_of(Report& report, std::string_view stage) {
   return report.stages.emplace_back(StageTime{std::string(stage), 0, 0});
 }
 
+void end_step(World& world, double dt) {
+  world.clock.tick(dt);
+  world.report.time = world.clock.now();
+  world.report.simulated += dt;
+  ++world.report.steps;
+}
+
 void run_step(World& world, double dt) {
+  // All asleep since a whole step: nothing that a stage could find out.
+  const bool still = !world.plan_is_stale && world.plan.movers.empty() && !world.asleep.empty() &&
+                     world.requests.empty();
+  if (still) return end_step(world, dt);
   refresh_plan(world);
   world.dt = dt;
   take_impulses(world);
@@ -97,10 +109,7 @@ void run_step(World& world, double dt) {
   }
   if (!world.plan.runs(StageKind::contacts)) world.contacts.clear();
   fall_asleep(world);
-  world.clock.tick(dt);
-  world.report.time = world.clock.now();
-  world.report.simulated += dt;
-  ++world.report.steps;
+  end_step(world, dt);
 }
 
 /// The totals of two moments, as what happened between them.

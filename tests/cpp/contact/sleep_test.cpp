@@ -100,5 +100,29 @@ TEST(Sleep, IsNotEndedByWhatPassesBy) {
   }
 }
 
+TEST(Sleep, EndsWhereTheGroundIsTakenAway) {
+  Simulation simulation = asleep();
+  const BodyId ground = simulation.scene().bodies[0].id;
+  const double top = simulation.states().position[4].z();
+  simulation.set_state(ground, {.position = {0, 0, -1}}, Eigen::Vector3d::Zero(),
+                       Eigen::Vector3d::Zero());
+  simulation.advance(0.4);
+  EXPECT_EQ(simulation.report().contact.asleep, 0);
+  EXPECT_NEAR(simulation.states().position[4].z(), top - 0.5 * stage::g * 0.16, 1e-9);  // free fall
+}
+
+TEST(Sleep, LetsTimeGoOnAndNothingElse) {
+  Simulation simulation = asleep();
+  const Array3 before = simulation.states().position;
+  const double time = simulation.time();
+  const Report report = simulation.advance(1);
+  EXPECT_NEAR(simulation.time(), time + 1, 1e-12);
+  EXPECT_EQ(report.steps, 60);
+  EXPECT_TRUE(report.ok());
+  EXPECT_EQ(simulation.report().contact.asleep, 8);
+  for (int i = 0; i < simulation.size(); ++i)
+    EXPECT_EQ(simulation.states().position[i], before[i]);
+}
+
 }  // namespace
 }  // namespace carom

@@ -71,9 +71,13 @@ void run_pairs(World& world) {
   w.fast.assign(n, 0);
   w.ahead = 0;
   for (int i = 0; i < s.size(); ++i) {
+    if (!s.moves[i]) {
+      world.reach[i] = 0;
+      if (!std::exchange(world.boxed[i], 1)) world.boxes[i] = near_box(world, i);
+      continue;
+    }
     // How far any point of the body can get in this step; contacts are looked for that far ahead.
-    double reach =
-        s.moves[i] ? way_bound(world, i) + turn_bound(world, i) * w.turning_radius[i] : 0;
+    double reach = way_bound(world, i) + turn_bound(world, i) * w.turning_radius[i];
     // Farther ahead than its own thickness a contact is a guess: the sweep finds what it meets.
     if (const double most = tolerance::sweep_share * w.thickness[i]; reach > most) {
       reach = most;
