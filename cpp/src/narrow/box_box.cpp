@@ -31,23 +31,35 @@ struct Axis {
   double length = 1;  // of the cross product of two edges
 };
 
-/// The axis of least overlap or largest gap; beyond `margin` as soon as one says so.
-/// @param faces  the best of either's faces
-Axis best_axis(const Vector3d& ha, const Vector3d& hb, const Matrix3d& R, const Vector3d& t,
-               double margin, double bias, Axis (&faces)[2]) {
-  Axis best, other;
-  const Matrix3d A = R.cwiseAbs();
+Axis best_face_of_a(const Vector3d& ha, const Vector3d& hb, const Matrix3d& A, const Vector3d& t) {
+  Axis best;
   for (int i = 0; i < 3; ++i) {
     const double s = std::abs(t[i]) - (ha[i] + A(i, 0) * hb[0] + A(i, 1) * hb[1] + A(i, 2) * hb[2]);
     if (s > best.separation) best = {s, Of::face_a, i, 0, t[i], 1};
   }
-  if (best.separation > margin) return best;
+  return best;
+}
+
+Axis best_face_of_b(const Vector3d& ha, const Vector3d& hb, const Matrix3d& R, const Matrix3d& A,
+                    const Vector3d& t) {
+  Axis best;
   for (int j = 0; j < 3; ++j) {
     const double d = t[0] * R(0, j) + t[1] * R(1, j) + t[2] * R(2, j);
     const double s = std::abs(d) - (hb[j] + A(0, j) * ha[0] + A(1, j) * ha[1] + A(2, j) * ha[2]);
-    if (s > other.separation) other = {s, Of::face_b, 0, j, d, 1};
+    if (s > best.separation) best = {s, Of::face_b, 0, j, d, 1};
   }
-  faces[0] = best, faces[1] = other;
+  return best;
+}
+
+/// The axis of least overlap or largest gap; beyond `margin` as soon as one says so.
+/// @param between  m, by how much the best face of one is better than that of the other
+Axis best_axis(const Vector3d& ha, const Vector3d& hb, const Matrix3d& R, const Vector3d& t,
+               double margin, double bias, double& between) {
+  const Matrix3d A = R.cwiseAbs();
+  Axis best = best_face_of_a(ha, hb, A, t);
+  if (best.separation > margin) return best;
+  Axis other = best_face_of_b(ha, hb, R, A, t);
+  between = std::abs(best.separation - other.separation);
   if (other.separation > best.separation + bias) best = other;
   if (best.separation > margin) return best;
   other.separation = best.separation + bias;
@@ -121,6 +133,24 @@ double face_towards(const Vector3d& half, const Vector3d& n, const Frame* frame,
   return cosine;
 }
 
+/// Where an edge of one lies along an edge of the other and they all but touch. False elsewhere.
+bool lean_together(const Vector3d& half_a, const Vector3d& half_b, const Frame& b_in_a,
+                   double margin, std::vector<Manifold>& out) {
+  const Matrix3d &R = b_in_a.rotation, A = R.cwiseAbs();
+  if (!(A.maxCoeff() > 1 - tolerance::parallel_edges)) return false;
+  const Axis of_a = best_face_of_a(half_a, half_b, A, b_in_a.translation);
+  const Axis of_b = best_face_of_b(half_a, half_b, R, A, b_in_a.translation);
+  const Vector3d na = direction(of_a, R), nb = direction(of_b, R);
+  const Vector3d in_b = -(R.transpose() * nb);
+  Manifold m;
+  if (!edge_on_edge(scratch_polytope(Box{2 * half_a}, 0), {of_a.separation, na, face_number(na)},
+                    scratch_polytope(Box{2 * half_b}, 1), {of_b.separation, nb, face_number(in_b)},
+                    b_in_a, 2 * (half_a.norm() + half_b.norm()), m))
+    return false;
+  if (m.points[0].separation <= margin) out.push_back(m);
+  return true;
+}
+
 }  // namespace
 
 void box_box(const Vector3d& half_a, const Vector3d& half_b, const Frame& b_in_a, double margin,
@@ -130,22 +160,11 @@ void box_box(const Vector3d& half_a, const Vector3d& half_b, const Frame& b_in_a
   const double size = 2 * (half_a.norm() + half_b.norm());
   const double bias = tolerance::axis_preference * size;
   const Matrix3d& R = b_in_a.rotation;
-  Axis faces[2];
-  const Axis best = best_axis(half_a, half_b, R, b_in_a.translation, margin, bias, faces);
+  double between = std::numeric_limits<double>::infinity();
+  const Axis best = best_axis(half_a, half_b, R, b_in_a.translation, margin, bias, between);
   if (best.separation > margin) return;
-  if (std::abs(faces[0].separation - faces[1].separation) < tolerance::edge_on_edge * size &&
-      R.cwiseAbs().maxCoeff() > 1 - tolerance::parallel_edges) {
-    const Vector3d na = direction(faces[0], R), nb = direction(faces[1], R);
-    const Vector3d in_b = -(R.transpose() * nb);
-    const FaceAxis a{faces[0].separation, na, face_number(na)},
-        b{faces[1].separation, nb, face_number(in_b)};
-    if (Manifold m;
-        edge_on_edge(scratch_polytope(Box{2 * half_a}, 0), a, scratch_polytope(Box{2 * half_b}, 1),
-                     b, b_in_a, size, m)) {
-      if (m.points[0].separation <= margin) out.push_back(m);
-      return;
-    }
-  }
+  if (between < tolerance::edge_on_edge * size && lean_together(half_a, half_b, b_in_a, margin, out))
+    return;
 
   const Vector3d n = direction(best, R), n_b = -(R.transpose() * n);
   const double facing_a = face_towards(half_a, n, nullptr, face_a);
