@@ -44,8 +44,8 @@ def test_one_of_each_shape_lands_on_the_hills_and_none_sinks_in():
 
 
 def test_all_but_the_ball_come_to_rest():
-    # The ball rolls off the hills over the plane below. A contact that comes and goes under a tip or
-    # beside a support would rock its body for ever.
+    # The ball rolls off the hills over the plane below. A contact that comes and goes, under a tip
+    # or beside a support, would rock its body for ever.
     simulation = carom.Simulation(carom.Scene.load(scene_path("landing")), dt=1 / 60)
     simulation.advance(5)
     names = np.array(simulation.names())

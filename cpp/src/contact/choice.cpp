@@ -23,7 +23,7 @@ constexpr double fine_share = 0.25;
 constexpr double keep_from = 0.75, keep_to = 1.15;
 constexpr int most_direct_bodies = 300;
 constexpr int sampled_patches = 4;  // every fourth: 300 bodies have two hundred of them at least
-constexpr int newton_least = 40;  // a hit from rest takes up to 15 outer rounds of two or three
+constexpr int newton_least = 40;    // a hit from rest takes up to 15 outer rounds of two or three
 
 }  // namespace
 

@@ -18,8 +18,8 @@
 namespace carom {
 namespace {
 
-// s, estimated, per step for islands that are not hard. Where hundreds of bodies meet, a fifth: while
-// a heap forms, pieces of it would take as long as the rest.
+// s, estimated, per step for islands that are not hard. Where hundreds of bodies meet, a fifth:
+// while a heap forms, pieces of it would take as long as the rest.
 constexpr double easy_budget = 5e-4, easy_budget_of_many = 1e-4;
 constexpr std::size_t many_bodies = 300;
 constexpr std::uint8_t hold_off = 30;  // steps until a direct solve is tried again

@@ -52,23 +52,24 @@ PointDistance to_box(const Vector3d& half, const Vector3d& p) {
 PointDistance to_revolved(std::span<const Vector2d> section, const Vector3d& p) {
   const double across = std::hypot(p.x(), p.y());
   const Vector2d q(across, p.z());
-  const Vector3d out =
-      across > 0 ? Vector3d(p.x() / across, p.y() / across, 0) : Vector3d::UnitX();
-  const auto lifted = [&](const Vector2d& v) { return Vector3d(v.x() * out + v.y() * Vector3d::UnitZ()); };
+  const Vector3d out = across > 0 ? Vector3d(p.x() / across, p.y() / across, 0) : Vector3d::UnitX();
+  const auto lifted = [&](const Vector2d& v) {
+    return Vector3d(v.x() * out + v.y() * Vector3d::UnitZ());
+  };
   Vector2d best_point = section[0], best_normal = Vector2d::UnitY();
   double inside = -infinity, outside = infinity;
   for (std::size_t i = 0; i + 1 < section.size(); ++i) {
     const Vector2d along = section[i + 1] - section[i];
     const double length = along.norm();
     const Vector2d normal = Vector2d(-along.y(), along.x()) / length;
-    const double over = normal.dot(q - section[i]), t = along.dot(q - section[i]) / (length * length);
+    const double over = normal.dot(q - section[i]),
+                 t = along.dot(q - section[i]) / (length * length);
     if (over > 0) {  // seen from here: apart by the height over it, or from a corner
       const Vector2d foot = section[i] + std::clamp(t, 0.0, 1.0) * along;
       const bool above = t >= 0 && t <= 1;
       const double far = above ? over : (q - foot).norm();
       if (far < outside)
-        outside = far, best_point = foot,
-        best_normal = above ? normal : Vector2d((q - foot) / far);
+        outside = far, best_point = foot, best_normal = above ? normal : Vector2d((q - foot) / far);
     } else if (outside == infinity && over > inside) {
       inside = over, best_point = q - over * normal, best_normal = normal;
     }
@@ -91,18 +92,17 @@ PointDistance to_cone(const Vector3d& size, const Vector3d& p) {
 /// The nearest point is x_i = r_i^2 p_i / (t + r_i^2), where t is the largest root of
 /// sum (r_i p_i / (t + r_i^2))^2 = 1. In s = t + r_min^2, from where one term is 1 and the others
 /// less, Newton's method on one over the root of the sum ascends: of one term that is a line. Of a
-/// point that all but lies in the plane of the longer axes it starts near a pole, which it leaves by
-/// half as much again in each step.
-/// Source: D. Eberly, Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid, 2013;
-/// J. More, D. Sorensen, SIAM J. Sci. Stat. Comput. 4(3), 1983.
+/// point that all but lies in the plane of the longer axes it starts near a pole, which it leaves
+/// by half as much again in each step. Source: D. Eberly, Distance from a Point to an Ellipse, an
+/// Ellipsoid, or a Hyperellipsoid, 2013; J. More, D. Sorensen, SIAM J. Sci. Stat. Comput. 4(3),
+/// 1983.
 PointDistance to_ellipsoid(const Vector3d& radii, const Vector3d& p) {
   int least = 0;
   radii.minCoeff(&least);
   const Vector3d square = radii.cwiseAbs2(), scaled = radii.cwiseProduct(p.cwiseAbs());
   // Differences of squares as products: of nearly equal radii they keep their digits.
   Vector3d more;
-  for (int i = 0; i < 3; ++i)
-    more[i] = (radii[i] - radii[least]) * (radii[i] + radii[least]);
+  for (int i = 0; i < 3; ++i) more[i] = (radii[i] - radii[least]) * (radii[i] + radii[least]);
   double s = (scaled - more).maxCoeff();
   Vector3d x;
   if (s > 0) {
@@ -137,11 +137,9 @@ PointDistance to_hull(const Convex& body, const Vector3d& p) {
     for (int f = 0; f < hull.face_count() && inside <= 0; ++f)
       if (const double d = hull.normals[f].dot(p) - hull.offsets[f]; d > inside)
         inside = d, nearest = f;
-    if (inside <= 0)
-      return {p - inside * hull.normals[nearest], hull.normals[nearest], inside};
+    if (inside <= 0) return {p - inside * hull.normals[nearest], hull.normals[nearest], inside};
   }
-  const Separation s =
-      separation(Convex::point(p), Convex::hull(body.points), Frame{}, infinity);
+  const Separation s = separation(Convex::point(p), Convex::hull(body.points), Frame{}, infinity);
   return {s.point_b, -s.normal, s.distance};
 }
 

@@ -163,7 +163,8 @@ void box_box(const Vector3d& half_a, const Vector3d& half_b, const Frame& b_in_a
   double between = std::numeric_limits<double>::infinity();
   const Axis best = best_axis(half_a, half_b, R, b_in_a.translation, margin, bias, between);
   if (best.separation > margin) return;
-  if (between < tolerance::edge_on_edge * size && lean_together(half_a, half_b, b_in_a, margin, out))
+  if (between < tolerance::edge_on_edge * size &&
+      lean_together(half_a, half_b, b_in_a, margin, out))
     return;
 
   const Vector3d n = direction(best, R), n_b = -(R.transpose() * n);

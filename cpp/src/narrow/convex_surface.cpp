@@ -96,8 +96,8 @@ struct Test {
     const double gap = n.dot(x - p) - body.radius;
     if (gap > margin || gap < -range) return;
     const auto at = [&](const Vector3d& point, std::uint32_t name) {
-      out.push_back({n, {point - (body.radius + 0.5 * gap) * n, gap,
-                         feature::pair(feature::edge(e), name)}});
+      out.push_back(
+          {n, {point - (body.radius + 0.5 * gap) * n, gap, feature::pair(feature::edge(e), name)}});
     };
     // A side along the edge has two points where both are; anything else crosses it at one.
     thread_local Face side;

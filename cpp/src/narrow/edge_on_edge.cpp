@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two edges that lie along one another, as of leaning cards. The bodies may part along any direction
-// between two face normals; the faces' own, which separating axes offer, are the ends of that range,
-// and which of them wins is rounding. Held along one of them the cards would slide off each other.
+// Two edges that lie along one another, as of leaning cards. The bodies may part along any
+// direction between two face normals; the faces' own, which separating axes offer, are the ends of
+// that range, and which of them wins is rounding. Held along one of them the cards would slide off
+// each other.
 #include <algorithm>
 #include <cmath>
 
@@ -24,8 +25,8 @@ struct Line {
 
   Line(const Polytope& p, int e, const Frame* frame, const Vector3d& along) {
     first = p.edges[e].v0, last = p.edges[e].v1;
-    if ((p.vertices[last] - p.vertices[first]).dot(frame ? frame->rotation.transpose() * along
-                                                         : along) < 0)
+    if ((p.vertices[last] - p.vertices[first])
+            .dot(frame ? frame->rotation.transpose() * along : along) < 0)
       std::swap(first, last);
     from = frame ? *frame * p.vertices[first] : p.vertices[first];
     to = frame ? *frame * p.vertices[last] : p.vertices[last];

@@ -73,8 +73,8 @@ void reduce(std::span<const ContactPoint> points, const Eigen::Vector3d& normal,
   keep(best(points, slack, slack, [&](const ContactPoint& p) {  // of the deepest, the farthest out
     return p.separation <= depth + slack ? (p.position - centre).norm() : -1.0;
   }));
-  // What lies higher over the plane counts as so much less far out: of a thin body the upper corners
-  // are within reach as well, and would else be taken for the lower ones.
+  // What lies higher over the plane counts as so much less far out: of a thin body the upper
+  // corners are within reach as well, and would else be taken for the lower ones.
   const auto height = [&](const ContactPoint& p) { return p.separation - depth; };
   const Eigen::Vector3d a = out.points[0].position;
   keep(best(points, slack, slack,

@@ -35,8 +35,8 @@ struct FaceAxis {
   Eigen::Vector3d normal;  ///< from a to b, frame of a
   int face;
 };
-/// The contact of two edges that lie along one another; false where the two best faces do not meet in
-/// such a pair, nearly touching.
+/// The contact of two edges that lie along one another; false where the two best faces do not meet
+/// in such a pair, nearly touching.
 /// @param size  m, of both together
 bool edge_on_edge(const Polytope& pa, const FaceAxis& a, const Polytope& pb, const FaceAxis& b,
                   const Frame& b_in_a, double size, Manifold& out);

@@ -53,8 +53,8 @@ void add_both(const Touch& on_other, const Touch& on_grid, double error, double 
     if (c.point.separation <= margin) found.push_back(c);
 }
 
-/// A body that bends, or lies flat, is carried at several places: where the level is nearer than all
-/// about it, and by the vertices of the level that face the other body and are near it.
+/// A body that bends, or lies flat, is carried at several places: where the level is nearer than
+/// all about it, and by the vertices of the level that face the other body and are near it.
 /// @param deepest  what is known: not given a second time
 /// @param side     1: normals of candidates are those of `seen`, -1: against them
 /// @param to_a     from the grid's frame to that of the candidates

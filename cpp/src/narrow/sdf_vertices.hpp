@@ -30,8 +30,8 @@ void walk_vertices(const MeshSurface& surface, const Aabb& near, const Seen& see
   };
   const auto entry = [&](int i) {
     const Aabb& box = surface.tree.nodes[i].box;
-    const double gap = box.overlaps(near) ? seen(box.centre()).gap
-                                          : std::numeric_limits<double>::infinity();
+    const double gap =
+        box.overlaps(near) ? seen(box.centre()).gap : std::numeric_limits<double>::infinity();
     return Entry{gap, 0.5 * box.extents().norm(), i};
   };
   std::array<Entry, 128> stack;  // depth is log2 of the faces: 2 x 64 is never met
@@ -42,7 +42,8 @@ void walk_vertices(const MeshSurface& surface, const Aabb& near, const Seen& see
     if (!(at.gap < std::numeric_limits<double>::infinity()) || !enter(at.gap, at.size)) continue;
     const MeshTree::Node& node = surface.tree.nodes[at.node];
     for (int k = 0; k < node.count; ++k)
-      for (int c = 0; c < 3; ++c) on_vertex(surface.mesh.faces(surface.tree.order[node.first + k], c));
+      for (int c = 0; c < 3; ++c)
+        on_vertex(surface.mesh.faces(surface.tree.order[node.first + k], c));
     if (node.count > 0) continue;
     Entry one = entry(at.node + 1), two = entry(surface.tree.nodes[at.node + 1].end);
     if (one.gap - one.size < two.gap - two.size) std::swap(one, two);

@@ -82,9 +82,9 @@ struct Motion {
 /// Marks as fast what the solver has turned like that. True when there is any.
 bool mark_turned(World& world);
 
-/// Whether the direction of the solver's contacts parts two convex bodies from time t of their paths
-/// to the end of the step, but for an overlap that their thickness allows: then neither can have
-/// gone through the other, however fast they slide or turn.
+/// Whether the direction of the solver's contacts parts two convex bodies from time t of their
+/// paths to the end of the step, but for an overlap that their thickness allows: then neither can
+/// have gone through the other, however fast they slide or turn.
 [[nodiscard]] bool stays_apart(const World& world, int a, int b, double t);
 
 /// Bodies whose motion in this step the pair stage did not foresee, as contacts pushed them farther

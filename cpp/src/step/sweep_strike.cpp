@@ -102,17 +102,17 @@ double still_to_take(const World& world, int i, const Vector3d& gravity, double 
   if (!s.moves[i] || w.paths[i].start > 0 || !world.solver.motion().decided[i]) return 0;
   const Vector3d v = world.velocity_before[i];
   const Vector3d l = w.orientation_before[i].conjugate() * world.angular_momentum_before[i];
-  const double before = 0.5 * (s.mass[i] * v.squaredNorm() +
-                               l.dot(s.inverse_moments[i].cwiseProduct(l))) -
-                        s.mass[i] * gravity.dot(w.position_before[i]);
+  const double before =
+      0.5 * (s.mass[i] * v.squaredNorm() + l.dot(s.inverse_moments[i].cwiseProduct(l))) -
+      s.mass[i] * gravity.dot(w.position_before[i]);
   const double after = s.kinetic_energy(i) - s.mass[i] * gravity.dot(s.position[i]);
   return (1 - t / world.dt) * std::max(0.0, before - after);
 }
 
 /// Contacts of the solver act over the whole step, so a body they push has at a time within it no
 /// speed that is quite its own. What they would have taken after a hit they do not take: `left`, J.
-/// What the hit adds to the energy by its timing beyond that is taken back from the motion about the
-/// common centre: momentum stays.
+/// What the hit adds to the energy by its timing beyond that is taken back from the motion about
+/// the common centre: momentum stays.
 void take_back(World& world, const SweepEvent& event, const Vector3d& gravity, double allowed,
                double left) {
   BodyStates& s = world.states;

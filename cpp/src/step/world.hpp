@@ -92,7 +92,7 @@ struct World {
   std::vector<Contact> asleep_contacts;  ///< what they start from when they wake
   std::vector<Aabb> boxes;
   std::vector<std::uint8_t> boxed;  ///< by row: stands still, and has its box since the last plan
-  std::vector<Frame> frames;  ///< of bodies in pairs, as the step began
+  std::vector<Frame> frames;        ///< of bodies in pairs, as the step began
   std::vector<Eigen::Quaterniond> turns;  ///< the same rotations
   std::vector<std::uint8_t> framed;
   std::vector<double> swing;        ///< m that turning can carry a point of one with a frame

@@ -120,8 +120,7 @@ TEST(Sleep, LetsTimeGoOnAndNothingElse) {
   EXPECT_EQ(report.steps, 60);
   EXPECT_TRUE(report.ok());
   EXPECT_EQ(simulation.report().contact.asleep, 8);
-  for (int i = 0; i < simulation.size(); ++i)
-    EXPECT_EQ(simulation.states().position[i], before[i]);
+  for (int i = 0; i < simulation.size(); ++i) EXPECT_EQ(simulation.states().position[i], before[i]);
 }
 
 }  // namespace

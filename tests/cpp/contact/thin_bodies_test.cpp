@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bodies thinner than contacts look ahead: their upper corners are within reach as well as the lower
-// ones, and it is the lower ones they lie on.
+// Bodies thinner than contacts look ahead: their upper corners are within reach as well as the
+// lower ones, and it is the lower ones they lie on.
 #include <gtest/gtest.h>
 
 #include "contact/stage.hpp"

@@ -3,12 +3,12 @@
 // known; and against GJK and the expanding polytope, which share none of the closed forms.
 #include "geometry/point_distance.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "carom/geometry/hull.hpp"
 #include "carom/geometry/separation.hpp"
@@ -69,8 +69,8 @@ TEST(PointDistance, IsThatOfTheExpandingPolytope) {
 TEST(PointDistance, OfAnEllipsoidIsThatOfItsParameters) {
   std::mt19937 random(6);
   std::normal_distribution<double> normal;
-  for (const Vector3d& r : {Vector3d(0.3, 0.4, 0.6), Vector3d(1e-3, 1, 1), Vector3d(1, 1, 1 + 1e-12),
-                            Vector3d(2, 0.5, 0.5), Vector3d(1, 1, 1)}) {
+  for (const Vector3d& r : {Vector3d(0.3, 0.4, 0.6), Vector3d(1e-3, 1, 1),
+                            Vector3d(1, 1, 1 + 1e-12), Vector3d(2, 0.5, 0.5), Vector3d(1, 1, 1)}) {
     const Shape shape = Ellipsoid{r};
     const Convex body = *convex_of(shape);
     const double inward = r.minCoeff() * r.minCoeff() / r.maxCoeff();

@@ -97,8 +97,9 @@ TEST(EdgeOnEdge, LeavesFacesAndCrossingEdgesAlone) {
   EXPECT_EQ(out[0].count, 4);
   out.clear();
   // An edge in the middle of a face.
-  const Pose tilted{.position = {0, 0, 0.5 + std::sqrt(0.5) - 1e-3},
-                    .orientation = Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 4, Vector3d::UnitY()))};
+  const Pose tilted{
+      .position = {0, 0, 0.5 + std::sqrt(0.5) - 1e-3},
+      .orientation = Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 4, Vector3d::UnitY()))};
   collide(box, Pose{}, box, tilted, 0.01, out);
   ASSERT_EQ(out.size(), 1u);
   EXPECT_NEAR(out[0].normal.z(), 1, 1e-12);

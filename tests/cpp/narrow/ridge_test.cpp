@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A prism along y whose ridge lies on the y axis, both sides falling by 0.2 rad. Alone it is convex
-/// and one body; with a box far off it is a surface of faces and edges.
+/// A prism along y whose ridge lies on the y axis, both sides falling by 0.2 rad. Alone it is
+/// convex and one body; with a box far off it is a surface of faces and edges.
 Mesh roof(bool convex) {
   const double x = 2, z = -2 * std::tan(0.2);
   TriangleMesh m;

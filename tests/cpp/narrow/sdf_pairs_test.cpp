@@ -111,8 +111,8 @@ TEST(AGrid, StandsOnAllItsFeet) {
                               std::max(std::abs(p.z() - 0.02) - 0.02, 0.0));
     for (int k = 0; k < 3; ++k) {
       const double angle = 2 * M_PI * k / 3;
-      least = std::min(least,
-                       (p - Vector3d(0.15 * std::cos(angle), 0.15 * std::sin(angle), 0)).norm() - 0.1);
+      least = std::min(
+          least, (p - Vector3d(0.15 * std::cos(angle), 0.15 * std::sin(angle), 0)).norm() - 0.1);
     }
     return least;
   };
@@ -142,8 +142,8 @@ TEST(AGrid, StandsOnAllItsFeet) {
   }
 }
 
-/// The level over a point of a plane, up to a cell along its normal, by halving; far off where there
-/// is none.
+/// The level over a point of a plane, up to a cell along its normal, by halving; far off where
+/// there is none.
 Vector3d level_over(const SdfGrid& grid, const Vector3d& at, const Vector3d& n) {
   double low = -grid.spacing, high = grid.spacing;
   Vector3d unused;

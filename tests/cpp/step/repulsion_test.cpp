@@ -151,8 +151,8 @@ TEST_P(InteriorNormals, LeaveACornerByTheFaceTheParticleCameThrough) {
   EXPECT_EQ(simulation.report().repulsion.swept_hit, 1);
   EXPECT_EQ(simulation.report().repulsion.gradient, 0);
   ASSERT_FALSE(simulation.contacts().empty());
-  // From the cube up to the particle; 1e-6 is what the gradient of a grid is good to on the flat of a
-  // face, ten cells from its edge (see interior_normal_test).
+  // From the cube up to the particle; 1e-6 is what the gradient of a grid is good to on the flat of
+  // a face, ten cells from its edge (see interior_normal_test).
   EXPECT_NEAR(simulation.contacts()[0].normal.z(), 1, 1e-6);
   const Report rest = simulation.advance(0.2);
   EXPECT_GT(rest.repulsion.kept + rest.repulsion.swept_hit, 0);  // inside for some steps more

@@ -58,7 +58,7 @@ def to_ellipsoid(radii: Sequence[float]) -> Distance:
     r = np.asarray(radii, float)
 
     def distance(p: Array) -> float:
-        low, high = -r.min() ** 2, r.max() * (float(np.linalg.norm(p)) + r.max())
+        low, high = -(r.min() ** 2), r.max() * (float(np.linalg.norm(p)) + r.max())
         for _ in range(200):
             middle = 0.5 * (low + high)
             outside = ((r * p / (middle + r**2)) ** 2).sum() > 1
