@@ -12,6 +12,7 @@
 #include "carom/numerics/tolerance.hpp"
 
 #include "geometry/mesh_polytope.hpp"
+#include "geometry/plain_nodes.hpp"
 
 namespace carom {
 namespace {
@@ -166,6 +167,7 @@ MeshSurface::MeshSurface(const TriangleMesh& source) : mesh(source), tree(source
   set_edges(*this);
   set_vertices(*this);
   set_clusters(*this);
+  plain = plain_nodes(*this);
   faults.inverted = faults.closed() && volume < 0;
   polytope = polytope_of(*this);
 }

@@ -5,6 +5,7 @@
 #include "carom/numerics/tolerance.hpp"
 
 #include "geometry/features.hpp"
+#include "geometry/plain_nodes.hpp"
 #include "narrow/normal_cone.hpp"
 #include "narrow/routines.hpp"
 
@@ -58,6 +59,12 @@ void box_ball(const Vector3d& half, const Vector3d& centre, double radius, doubl
 void surface_ball(const MeshSurface& a, const Vector3d& centre, double radius, double margin,
                   std::vector<Manifold>& out) {
   const double reach = radius + margin;
+  const Vector3d around = Vector3d::Constant(reach);
+  if (const int f = lone_plane(a, {centre - around, centre + around}); f >= 0)
+    if (const double height = a.face_normals[f].dot(centre - a.corner(f, 0)); height > 0) {
+      if (height <= reach) add(centre, a.face_normals[f], height, radius, feature::face(f), out);
+      return;
+    }
   const SurfacePoint nearest = closest_point(a, centre, std::numeric_limits<double>::infinity());
   if (nearest.face < 0 || nearest.distance > reach) return;
   if (nearest.distance <= 0)

@@ -39,6 +39,10 @@ const MeshSurface& scratch_surface(const Box& box) {
   thread_local MeshSurface scratch = cube;
   const Vector3d half = 0.5 * box.extents;
   for (int i = 0; i < 8; ++i) scratch.mesh.vertices.row(i) = corner(half, i).transpose();
+  for (std::size_t i = 0; i < scratch.polytope->vertices.size(); ++i)
+    scratch.polytope->vertices[i] = cube.polytope->vertices[i].cwiseProduct(half);
+  for (std::size_t f = 0; f < scratch.polytope->offsets.size(); ++f)
+    scratch.polytope->offsets[f] = scratch.polytope->normals[f].cwiseAbs().dot(half);
   for (std::size_t i = 0; i < cube.tree.nodes.size(); ++i) {
     scratch.tree.nodes[i].box.lower = cube.tree.nodes[i].box.lower.cwiseProduct(half);
     scratch.tree.nodes[i].box.upper = cube.tree.nodes[i].box.upper.cwiseProduct(half);

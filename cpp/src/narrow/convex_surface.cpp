@@ -6,6 +6,7 @@
 #include "carom/numerics/tolerance.hpp"
 
 #include "geometry/features.hpp"
+#include "geometry/plain_nodes.hpp"
 #include "narrow/candidates.hpp"
 #include "narrow/normal_cone.hpp"
 #include "narrow/routines.hpp"
@@ -70,7 +71,7 @@ struct Test {
     const Vector3d p = surface.vertex(edge.v0), pq = surface.vertex(edge.v1) - p;
     const double length = pq.norm();
     const Vector3d &n0 = surface.face_normals[edge.f0], &n1 = surface.face_normals[edge.f1];
-    const Vector3d across = (n1 - n1.dot(n0) * n0).normalized();
+    const Vector3d across = -edge.inward0;  // from the first normal towards the second
     struct Way {
       Vector3d n, tip;
       double slope;  // of the gap, as the direction turns
@@ -81,7 +82,7 @@ struct Test {
       const Vector3d tip = frame * body.support(-to_body(n));
       return Way{n, tip, turned.dot(tip - p)};
     };
-    double from = 0, to = std::atan2(n1.dot(across), n1.dot(n0));
+    double from = 0, to = std::atan2(std::max(n1.dot(across), 0.0), n1.dot(n0));
     Way low = towards(from), high = towards(to);
     if (!(low.slope > 0) || !(high.slope < 0)) return;  // a face has it
     while (to - from > tolerance::same_direction) {
@@ -167,6 +168,10 @@ void surface_convex(const MeshSurface& a, const Convex& b, const Frame& b_in_a, 
   for (auto* list : {&faces, &edges, &vertices}) list->clear();
   const Aabb box = bounds_of(b, b_in_a);
   const Aabb region = box.inflated(margin);
+  if (const int f = lone_plane(a, region); f >= 0) {
+    const Vector3d& n = a.face_normals[f];
+    return half_space_convex(n, n.dot(a.corner(f, 0)), b, b_in_a, margin, out);
+  }
   a.tree.query([&](const Aabb& node) { return node.overlaps(region); },
                [&](int f) {
                  if (a.face_normals[f].isZero(0)) return;

@@ -9,6 +9,7 @@
 #include "carom/numerics/tolerance.hpp"
 
 #include "geometry/features.hpp"
+#include "geometry/plain_nodes.hpp"
 #include "narrow/candidates.hpp"
 #include "narrow/normal_cone.hpp"
 #include "narrow/routines.hpp"
@@ -252,6 +253,32 @@ void edges_against(const MeshSurface& a, const std::vector<int>& edges_a, const 
 
 }  // namespace
 
+namespace {
+
+/// Within reach of the other, one of the two is a single plane without an edge: as a half-space.
+bool one_is_a_plane(const MeshSurface& a, const MeshSurface& b, const Frame& b_in_a,
+                    const Frame& a_in_b, const Aabb& in_a, const Aabb& in_b, double margin,
+                    std::vector<Manifold>& out) {
+  if (const int f = lone_plane(a, in_a); f >= 0) {
+    const Vector3d& n = a.face_normals[f];
+    half_space_surface(n, n.dot(a.corner(f, 0)), b, b_in_a, margin, out);
+    return true;
+  }
+  const int f = lone_plane(b, in_b);
+  if (f < 0) return false;
+  const Vector3d& n = b.face_normals[f];
+  const std::size_t begin = out.size();
+  half_space_surface(n, n.dot(b.corner(f, 0)), a, a_in_b, margin, out);
+  for (std::size_t i = begin; i < out.size(); ++i) {
+    out[i].normal = -(b_in_a.rotation * out[i].normal);
+    for (int k = 0; k < out[i].count; ++k)
+      out[i].points[k].position = b_in_a * out[i].points[k].position;
+  }
+  return true;
+}
+
+}  // namespace
+
 void surface_surface(const MeshSurface& a, const MeshSurface& b, const Frame& b_in_a, double margin,
                      std::vector<Manifold>& out) {
   thread_local Near near_a, near_b;
@@ -262,6 +289,7 @@ void surface_surface(const MeshSurface& a, const MeshSurface& b, const Frame& b_
   const Aabb in_a = intersection(box_a, moved(box_b, b_in_a)).inflated(margin);
   const Aabb in_b = intersection(box_b, moved(box_a, a_in_b)).inflated(margin);
   if (in_a.empty() || in_b.empty()) return;
+  if (one_is_a_plane(a, b, b_in_a, a_in_b, in_a, in_b, margin, out)) return;
   near_a.gather(a, in_a);
   near_b.gather(b, in_b);
   const double reach = in_a.extents().norm();  // no overlap is deeper than what both boxes share

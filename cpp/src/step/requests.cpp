@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What can be asked of a simulation between steps. Everything is checked before anything changes.
+#include <algorithm>
 #include <string>
 
 #include "carom/numerics/invalid_input.hpp"
@@ -73,8 +74,11 @@ void Simulation::set_state(BodyId id, const Pose& pose, const Eigen::Vector3d& v
     throw InvalidInput("velocity", with_unit(velocity.transpose(), "m/s"),
                        "must be 0 for a static body");
   // What stands may have carried anything that sleeps.
-  wake(*world_, world_->scene.bodies[row].is_static ? -1 : row);
-  world_->plan_is_stale = true;
+  if (!world_->scene.bodies[row].is_static)
+    wake(*world_, row);
+  else if (std::ranges::count(world_->asleep, 1) > 0)
+    wake(*world_, -1);
+  if (row < static_cast<int>(world_->boxed.size())) world_->boxed[row] = 0;
   world_->states.set(row, {pose.position, q}, velocity, angular_velocity);
 }
 

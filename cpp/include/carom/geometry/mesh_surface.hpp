@@ -59,6 +59,7 @@ struct MeshSurface {
   std::vector<std::uint8_t> vertex_sharp;       ///< 1 where a vertex ends a convex edge
   MeshFaults faults;
   MeshTree tree;
+  std::vector<int> plain;            ///< by node of the tree: the one cluster it is flat in, or -1
   double volume = 0;                 ///< m^3, signed; of no meaning when open
   std::optional<Polytope> polytope;  ///< when the mesh is convex
   /// An open mesh has no inside: a body is held on the side its centre lies on. From behind it
