@@ -43,11 +43,9 @@ def test_one_of_each_shape_lands_on_the_hills_and_none_sinks_in():
     assert result["sweep"]["gave_up"] == 0
 
 
-def test_all_but_the_ball_come_to_rest():
-    # The ball rolls off the hills over the plane below. A contact that comes and goes, under a tip
-    # or beside a support, would rock its body for ever.
+def test_all_come_to_rest():
+    # The cylinder rocks in a hollow for 5 s, the ball rolls over the plane below for 6 s. A contact
+    # that comes and goes, under a tip or beside a support, would rock its body for ever.
     simulation = carom.Simulation(carom.Scene.load(scene_path("landing")), dt=1 / 60)
-    simulation.advance(5)
-    names = np.array(simulation.names())
-    speed = np.linalg.norm(simulation.twists()[:, :3], axis=1)
-    assert set(names[speed > 1e-3]) <= {"sphere"}
+    simulation.advance(10)
+    assert np.linalg.norm(simulation.twists()[:, :3], axis=1).max() < 1e-3
