@@ -7,6 +7,7 @@
 
 #include "geometry/features.hpp"
 #include "geometry/plain_nodes.hpp"
+#include "narrow/bounds.hpp"
 #include "narrow/candidates.hpp"
 #include "narrow/normal_cone.hpp"
 #include "narrow/routines.hpp"
@@ -146,17 +147,6 @@ struct Test {
                     feature::pair(of_surface, feature::curve(5))}});
   }
 };
-
-Aabb bounds_of(const Convex& body, const Frame& frame) {
-  Aabb box;
-  for (int i = 0; i < 3; ++i)
-    for (double sign : {-1.0, 1.0}) {
-      const Vector3d d = sign * frame.rotation.row(i).transpose();
-      const double h = (frame * body.support(d))[i] + sign * body.radius;
-      (sign < 0 ? box.lower : box.upper)[i] = h;
-    }
-  return box;
-}
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 
 #include "geometry/features.hpp"
 #include "geometry/point_distance.hpp"
+#include "narrow/bounds.hpp"
 #include "narrow/routines.hpp"
 #include "narrow/sdf_patch.hpp"
 #include "narrow/support_face.hpp"
@@ -18,16 +19,6 @@ namespace carom {
 namespace {
 
 using Eigen::Vector3d;
-
-Aabb bounds_of(const Convex& body, const Frame& frame) {
-  Aabb box;
-  for (int i = 0; i < 3; ++i)
-    for (double sign : {-1.0, 1.0}) {
-      const Vector3d d = sign * frame.rotation.row(i).transpose();
-      (sign < 0 ? box.lower : box.upper)[i] = (frame * body.support(d))[i];
-    }
-  return box.inflated(body.radius);
-}
 
 /// A ball is its centre and its radius.
 void sdf_ball(const SdfGrid& a, const Vector3d& centre, double radius, double margin,

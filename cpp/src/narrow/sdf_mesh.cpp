@@ -9,6 +9,7 @@
 #include "carom/numerics/tolerance.hpp"
 
 #include "geometry/features.hpp"
+#include "narrow/bounds.hpp"
 #include "narrow/routines.hpp"
 #include "narrow/sdf_patch.hpp"
 

@@ -41,12 +41,6 @@ double blur(const SdfGrid& grid) {
   return std::max(grid.error, tolerance::sdf_settled * grid.spacing);
 }
 
-Aabb moved(const Aabb& box, const Frame& frame) {
-  const Vector3d half = 0.5 * frame.rotation.cwiseAbs() * box.extents();
-  const Vector3d centre = frame * box.centre();
-  return {centre - half, centre + half};
-}
-
 Vector3d lowest_vertex(const MeshSurface& surface, const Frame& frame, const Vector3d& n) {
   Eigen::Index row;
   (surface.mesh.vertices * (frame.rotation.transpose() * n)).minCoeff(&row);

@@ -38,8 +38,6 @@ struct SdfPatch {
 
 /// How far two searches over a grid may differ and have found one point, m.
 [[nodiscard]] double blur(const SdfGrid& grid);
-/// Box of a box that `frame` carries.
-[[nodiscard]] Aabb moved(const Aabb& box, const Frame& frame);
 [[nodiscard]] Eigen::Vector3d lowest_vertex(const MeshSurface& surface, const Frame& frame,
                                             const Eigen::Vector3d& n);
 

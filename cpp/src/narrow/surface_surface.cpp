@@ -10,6 +10,7 @@
 
 #include "geometry/features.hpp"
 #include "geometry/plain_nodes.hpp"
+#include "narrow/bounds.hpp"
 #include "narrow/candidates.hpp"
 #include "narrow/normal_cone.hpp"
 #include "narrow/routines.hpp"
@@ -41,12 +42,6 @@ struct Near {
     }
   }
 };
-
-Aabb moved(const Aabb& box, const Frame& frame) {
-  const Vector3d half = 0.5 * frame.rotation.cwiseAbs() * box.extents();
-  const Vector3d centre = frame * box.centre();
-  return {centre - half, centre + half};
-}
 
 Aabb intersection(const Aabb& a, const Aabb& b) {
   return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
