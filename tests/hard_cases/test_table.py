@@ -9,7 +9,7 @@ from carom.commands.stress import as_markdown
 from carom.stress import GROUPS, Outcome, cases_of, run_case
 
 KNOWN = {
-    "mirror_symmetry": "0.6 m: the pile is chaotic, and what the solver leaves unsolved is not symmetric",
+    "mirror_symmetry": "0.6 m: the pile is chaotic, and what is left unsolved is not symmetric",
 }
 """Bugs open in the library, each a row of the table that fails."""
 
