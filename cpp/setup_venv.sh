@@ -40,5 +40,14 @@ fi
 echo "carom: preparing .venv (first time: one to three minutes)" >&2
 .venv/bin/pip install -q --disable-pip-version-check \
   "scikit-build-core>=0.10" "pybind11>=2.13" "cmeel-eigen>=3.4" "cmake>=3.25" "ninja>=1.11" setuptools wheel
+# With tests one tree serves the module and them: the library is compiled once.
+tree=""
+case ",$extras," in *,test,*)
+  tree="-Cbuild-dir=build/release -Cbuild.targets=carom_core"
+  for option in BUILD_TESTS BUILD_EXAMPLES WARNINGS_AS_ERRORS; do
+    tree="$tree -Ccmake.define.CAROM_$option=ON"
+  done
+esac
+# shellcheck disable=SC2086  # word splitting is meant
 PATH="$PWD/.venv/bin:$PATH" .venv/bin/pip install -q --disable-pip-version-check \
-  --no-build-isolation ".[$extras]"
+  --no-build-isolation $tree ".[$extras]"

@@ -68,10 +68,11 @@ SolverChoice solver_named(const std::string& name) {
 
 void bind_stepping(Class& cls) {
   cls.def(py::init([](const Scene& scene, double dt, const std::string& integrator,
-                      const std::string& contact_solver, int substeps, double sleep_after,
-                      bool verify, int threads) {
+                      const std::string& contact_solver, double contact_tolerance, int substeps,
+                      double sleep_after, bool verify, int threads) {
             SimulationOptions options{.dt = dt, .integrator = integrator_named(integrator)};
             options.contact.choice = solver_named(contact_solver);
+            options.contact.tolerance = contact_tolerance;
             options.contact.substeps = substeps;
             options.sleep_after = sleep_after;
             options.verify = verify;
@@ -80,13 +81,14 @@ void bind_stepping(Class& cls) {
           }),
           "scene"_a, "dt"_a = SimulationOptions{}.dt,
           "integrator"_a = std::string(name_of(SimulationOptions{}.integrator)), py::kw_only(),
-          "contact_solver"_a = "automatic", "substeps"_a = 0,
-          "sleep_after"_a = SimulationOptions{}.sleep_after, "verify"_a = false,
+          "contact_solver"_a = "automatic", "contact_tolerance"_a = SolverOptions{}.tolerance,
+          "substeps"_a = 0, "sleep_after"_a = SimulationOptions{}.sleep_after, "verify"_a = false,
           "threads"_a = SimulationOptions{}.threads,
           "scene: copied, so later changes to it do not reach the simulation; dt: s, > 0, the\n"
           "largest step taken; integrator: of rotations, one of METHODS; contact_solver:\n"
-          "'automatic', 'small_steps' or 'direct'; substeps: of the small steps, 0 for as many as\n"
-          "the loads ask for; sleep_after: s at rest until an island costs nothing, inf for\n"
+          "'automatic', 'small_steps' or 'direct'; contact_tolerance: m/s, residual at which the\n"
+          "direct solver stops; substeps: of the small steps, 0 for as many as the loads ask\n"
+          "for; sleep_after: s at rest until an island costs nothing, inf for\n"
           "never; verify: look at the ways of every step again with exact predicates, see\n"
           "report.sweep.crossings; slow; threads: 1 to 1024 share the contact solver's work, with\n"
           "the same bits whatever their number.")

@@ -19,3 +19,9 @@ endif()
 # AVX matters to nobody; GCC says so once per file, where no pragma reaches.
 set_source_files_properties(${PROJECT_SOURCE_DIR}/cpp/src/contact/bulk_kernel.cpp
   PROPERTIES COMPILE_OPTIONS "-Wno-psabi")
+
+# Most of the time a source takes is Eigen's headers: read once. Files with flags of their own read them themselves.
+target_precompile_headers(carom PRIVATE <Eigen/Core> <Eigen/Geometry> <cmath> <optional> <span> <string> <variant>
+  <vector>)
+set_source_files_properties(${carom_avx2_sources} ${PROJECT_SOURCE_DIR}/cpp/src/contact/bulk_kernel.cpp
+  PROPERTIES SKIP_PRECOMPILE_HEADERS ON)

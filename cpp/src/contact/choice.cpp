@@ -76,7 +76,7 @@ double newton_seconds(const Island& island) {
 
 Choice choose(const Islands& islands, const Island& island, const BodyStates& states,
               const BodyFrames& frames, std::span<const Contact> contacts, double dt,
-              const SolverOptions& options, const SolverMemory& memory, double& easy_budget) {
+              const SolverOptions& options, const SolverMemory& memory) {
   Choice choice;
   const SinkEstimate sink = soft_sink(islands, island, states, frames, contacts, dt, few);
   int before = 0;
@@ -102,9 +102,23 @@ Choice choose(const Islands& islands, const Island& island, const BodyStates& st
   if (held_off > 0 || island.bodies > most_direct_bodies) return choice;
   const double cost = each * newton;
   const bool hard = sink.worst > tolerance::soft_sink * (was_direct ? 0.5 : 1.0);
-  choice.direct = cost <= (hard ? options.direct_budget : easy_budget);
-  if (choice.direct && !hard) easy_budget -= cost;
+  if (hard)
+    choice.direct = cost <= options.direct_budget;
+  else
+    choice.easy_cost = cost;
   return choice;
+}
+
+double most_easy_cost(std::span<double> costs, double budget) {
+  std::ranges::sort(costs);
+  double most = 0;
+  for (std::size_t i = 0; i < costs.size();) {
+    const double each = costs[i];
+    for (; i < costs.size() && costs[i] == each; ++i) budget -= each;
+    if (budget < 0) break;
+    most = each;
+  }
+  return most;
 }
 
 }  // namespace carom::contact

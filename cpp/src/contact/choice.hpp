@@ -26,13 +26,15 @@ struct SinkEstimate {
 struct Choice {
   bool direct = false;
   int newton_cap = 0;
-  int substeps = 0;  ///< where not direct, or when direct gives up
+  int substeps = 0;      ///< where not direct, or when direct gives up
+  double easy_cost = 0;  ///< s, of a direct solve where small steps would hold as well; 0: no such
 };
-/// @param easy_budget  s, left for direct solves of islands that small steps would hold as well;
-///                     what is spent is taken off
 [[nodiscard]] Choice choose(const Islands& islands, const Island& island, const BodyStates& states,
                             const BodyFrames& frames, std::span<const Contact> contacts, double dt,
-                            const SolverOptions& options, const SolverMemory& memory,
-                            double& easy_budget);
+                            const SolverOptions& options, const SolverMemory& memory);
+
+/// The most an easy island's direct solve may cost, s, so that all those that cost no more fit into
+/// the budget: what costs alike is treated alike, whatever its order. Sorts the costs.
+[[nodiscard]] double most_easy_cost(std::span<double> costs, double budget);
 
 }  // namespace carom::contact

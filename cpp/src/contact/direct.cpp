@@ -222,7 +222,7 @@ double DirectSolver::line_search(double slope_at_0) {
   return low > 0 ? low : high;
 }
 
-DirectResult DirectSolver::solve(double enough, int newton_cap) {
+DirectResult DirectSolver::solve(double enough, double slow_enough, int newton_cap) {
   const std::size_t n = bodies.size();
   cholesky_.analyse(static_cast<int>(n), edges);
   work_.resize(points.size());
@@ -314,7 +314,7 @@ DirectResult DirectSolver::solve(double enough, int newton_cap) {
       evaluate();
       size = gradient();
       // Rounding sets a floor; the residual below counts what is left.
-      idle = size < 0.5 * least || size > tolerance::direct_residual_slow ? 0 : idle + 1;
+      idle = size < 0.5 * least || size > slow_enough ? 0 : idle + 1;
       least = std::min(least, size);
       if (idle >= idle_cap) break;
     }
@@ -355,7 +355,7 @@ DirectResult DirectSolver::solve(double enough, int newton_cap) {
     result.residual = residual = std::max(residual, proximal);
     // Sliding on more points than a plane has leaves a slow tail of no consequence.
     const bool slow = residual > 0.3 * residual_before;
-    if (residual <= enough || (slow && residual <= tolerance::direct_residual_slow)) {
+    if (residual <= enough || (slow && residual <= slow_enough)) {
       result.converged = true;
       break;
     }
@@ -366,7 +366,7 @@ DirectResult DirectSolver::solve(double enough, int newton_cap) {
   }
   // A cold start under a heavy load may need more rounds than one step gives it; the next step goes
   // on from here.
-  result.converged |= result.residual <= 10 * tolerance::direct_residual_slow;
+  result.converged |= result.residual <= 10 * slow_enough;
   for (std::size_t k = 0; k < n; ++k) bodies[k].v = v_[k];
   for (std::size_t i = 0; i < points.size(); ++i) points[i].impulse = work_[i].value;
   for (std::size_t i = 0; i < turns.size(); ++i) turns[i].impulse = turn_work_[i].value;

@@ -64,8 +64,9 @@ class DirectSolver {
   void clear();
   /// Reads bodies, points, turns, edges; writes their `v` and `impulse`. When not converged these
   /// are the last iterate: do not use them.
-  /// @param enough  m/s, residual to stop at
-  DirectResult solve(double enough, int newton_cap);
+  /// @param enough       m/s, residual to stop at
+  /// @param slow_enough  m/s, the same once rounds gain little
+  DirectResult solve(double enough, double slow_enough, int newton_cap);
 
  private:
   struct Work {

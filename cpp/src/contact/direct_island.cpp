@@ -165,7 +165,8 @@ DirectResult DirectIsland::solve(BodyStates& states, const BodyFrames& frames,
                                  std::span<Contact> contacts, ContactMotion& motion, double dt,
                                  double residual, int newton_cap, double& dissipated) {
   load(states, frames, islands, island, contacts, dt);
-  DirectResult result = solver_.solve(residual, newton_cap);
+  DirectResult result = solver_.solve(
+      residual, std::min(tolerance::direct_residual_slow, 100 * residual), newton_cap);
   if (!result.converged) return result;
   dissipated += store(states, frames, contacts);
 
@@ -213,8 +214,8 @@ DirectResult DirectIsland::solve(BodyStates& states, const BodyFrames& frames,
   }
   settled_.clear();
   for (DirectBody& body : solver_.bodies) settled_.push_back(body.v);
-  const DirectResult pushed =
-      solver_.solve(std::max(residual, tolerance::push_residual), newton_cap);
+  const DirectResult pushed = solver_.solve(std::max(residual, tolerance::push_residual),
+                                            tolerance::direct_residual_slow, newton_cap);
   result.newton += pushed.newton;
   if (!pushed.converged) return result;  // they stay where they overlap; the next step tries again
   for (int i = 0; i < island.bodies; ++i) {

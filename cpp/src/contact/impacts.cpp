@@ -77,7 +77,9 @@ double Impacts::strike(BodyStates& states, BodyFrames& frames, const Patch& patc
       p.gap_speed = restitution * std::min(u, 0.0);
       solver_.points.push_back(p);
     }
-    if (!solver_.solve(tolerance::hit_residual * speed, 400).converged) return 0;
+    if (!solver_.solve(tolerance::hit_residual * speed, tolerance::direct_residual_slow, 400)
+             .converged)
+      return 0;
     taken = 0;
     for (int k = 0; k < patch.count; ++k) {
       const Contact& c = contacts[patch.first + k];

@@ -64,6 +64,7 @@ struct ContactSolver::Workspace {
   std::vector<contact::DirectIsland> direct;  // one a thread
   std::vector<Turn> turns;                    // by island
   std::vector<int> direct_islands;
+  std::vector<double> easy_costs;
   contact::Impacts impacts;
   contact::SmallSteps small_steps;
   std::vector<std::pair<int, int>> later;  // substeps and island of what is not solved directly
@@ -111,11 +112,19 @@ SolveOutcome ContactSolver::solve(BodyStates& states, const Array3& velocity_bef
 
   w.later.clear(), w.direct_islands.clear();
   w.turns.assign(out.islands, {});
-  double easy_left = w.islands.bodies.size() > many_bodies ? easy_budget_of_many : easy_budget;
+  w.easy_costs.clear();
   for (int k = 0; k < out.islands; ++k) {
     w.turns[k].choice = contact::choose(w.islands, w.islands.islands[k], states, w.frames, contacts,
-                                        dt, options, memory, easy_left);
-    if (w.turns[k].choice.direct) w.direct_islands.push_back(k);
+                                        dt, options, memory);
+    if (w.turns[k].choice.easy_cost > 0) w.easy_costs.push_back(w.turns[k].choice.easy_cost);
+  }
+  const bool many = w.islands.bodies.size() > many_bodies;
+  const double most_easy =
+      contact::most_easy_cost(w.easy_costs, many ? easy_budget_of_many : easy_budget);
+  for (int k = 0; k < out.islands; ++k) {
+    contact::Choice& choice = w.turns[k].choice;
+    choice.direct |= choice.easy_cost > 0 && choice.easy_cost <= most_easy;
+    if (choice.direct) w.direct_islands.push_back(k);
   }
   // Islands share no moving body: whoever is free takes the next.
   w.direct.resize(std::max<std::size_t>(w.direct.size(), workers ? workers->count() : 1));

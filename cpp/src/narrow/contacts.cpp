@@ -75,12 +75,32 @@ Leaf leaf_of(const Shape& shape, int slot) {
   return leaf;
 }
 
+/// Takes manifolds found in `frame` to the world; side -1: they were found as (b, a).
+void in_world(const Frame& frame, std::size_t begin, double side, Manifolds& out) {
+  for (std::size_t i = begin; i < out.size(); ++i) {
+    Manifold& m = out[i];
+    m.normal = side * (frame.rotation * m.normal);
+    for (int k = 0; k < m.count; ++k) m.points[k].position = frame * m.points[k].position;
+  }
+}
+
+bool stands_on(const Leaf& floor, const Leaf& body, const Frame& body_in_floor, double margin,
+               Manifolds& out) {
+  std::span<const Vector3d> corners;
+  if (body.polytope) corners = body.polytope->vertices;
+  return floor.polytope &&
+         one_face(*floor.polytope, body.convex, corners, body_in_floor, margin, out);
+}
+
 void convex_pair(const Leaf& a, const Leaf& b, const Frame& b_in_a, double margin, Manifolds& out) {
   if (a.box && b.box) return box_box(a.convex.size, b.convex.size, b_in_a, margin, out);
   if (a.is_ball() && b.is_ball() && a.convex.radius > 0 && b.convex.radius > 0)
     return ball_ball(a.convex.radius, b_in_a.translation, b.convex.radius, margin, out);
   if (a.box && b.is_ball() && b.convex.radius > 0)
     return box_ball(a.convex.size, b_in_a.translation, b.convex.radius, margin, out);
+  if (stands_on(a, b, b_in_a, margin, out)) return;
+  const std::size_t begin = out.size();
+  if (stands_on(b, a, b_in_a.inverse(), margin, out)) return in_world(b_in_a, begin, -1, out);
   if (a.polytope && b.polytope &&
       a.polytope->edges.size() * b.polytope->edges.size() <= tolerance::edge_pairs)
     return polytope_polytope(*a.polytope, *b.polytope, b_in_a, margin, out);
@@ -149,15 +169,6 @@ bool turned(const Leaf& a, const Leaf& b) {
   if (a.kind != b.kind) return a.kind < b.kind;
   if (a.kind == Kind::sdf) return comes_later(*a.sdf, *b.sdf);
   return a.kind == Kind::convex && b.box && !a.box;
-}
-
-/// Takes manifolds found in `frame` to the world; side -1: they were found as (b, a).
-void in_world(const Frame& frame, std::size_t begin, double side, Manifolds& out) {
-  for (std::size_t i = begin; i < out.size(); ++i) {
-    Manifold& m = out[i];
-    m.normal = side * (frame.rotation * m.normal);
-    for (int k = 0; k < m.count; ++k) m.points[k].position = frame * m.points[k].position;
-  }
 }
 
 void collide_leaves(const Shape& a, const Frame& frame_a, const Shape& b, const Frame& frame_b,

@@ -63,7 +63,8 @@ void half_space_convex(const Eigen::Vector3d& normal, double offset, const Conve
     lowest = std::min(lowest, normal.dot(face.points[i]) - offset);
     size = std::max(size, (face.points[i] - face.points[0]).norm());
   }
-  if (lowest > least + tolerance::equally_deep * size) add(tip, face.feature);
+  const bool lone = face.points.size() == 1;  // the deepest itself, but for rounding
+  if (!lone && lowest > least + tolerance::equally_deep * size) add(tip, face.feature);
   reduce(points, normal, out.emplace_back());
 }
 

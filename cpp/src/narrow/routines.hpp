@@ -29,6 +29,11 @@ void half_space_sdf(const Eigen::Vector3d& normal, double offset, const SdfGrid&
 
 void convex_convex(const Convex& a, const Convex& b, const Frame& b_in_a, double margin,
                    std::vector<Manifold>& out);
+/// False where b is near several faces of a, or deep inside. Near one alone a is a half-space to
+/// it.
+/// @param corners  m, of b where it is a polytope, else none
+bool one_face(const Polytope& a, const Convex& b, std::span<const Eigen::Vector3d> corners,
+              const Frame& b_in_a, double margin, std::vector<Manifold>& out);
 /// How far two polytopes are apart along the normal of a face of one of them.
 struct FaceAxis {
   double separation;       ///< m

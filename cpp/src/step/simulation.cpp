@@ -10,14 +10,13 @@
 #include "carom/numerics/invalid_input.hpp"
 #include "carom/numerics/tolerance.hpp"
 
+#include "step/options.hpp"
 #include "step/world.hpp"
 
 namespace carom {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr int most_threads = 1024;  // more is a slip of the keyboard
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -141,10 +140,7 @@ Report difference(const Report& now, const Report& then) {
 }  // namespace
 
 Simulation::Simulation(Scene scene, SimulationOptions options) : world_(std::make_unique<World>()) {
-  require_positive(options.dt, "dt", "s");
-  if (options.threads < 1 || options.threads > most_threads)
-    throw InvalidInput("threads", std::to_string(options.threads), "must be 1 to 1024",
-                       "as many as the machine has cores, or 1");
+  require_valid(options);
   for (std::size_t i = 0; i < scene.effects.size(); ++i) {
     const std::string field = "effects[" + std::to_string(i) + "]";
     require_valid(scene.effects[i], field);

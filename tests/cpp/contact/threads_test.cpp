@@ -69,14 +69,6 @@ TEST(Threads, GiveTheSameBits) {
   EXPECT_TRUE(direct);
 }
 
-TEST(Threads, AreOneOrMore) {
-  SimulationOptions options;
-  for (const int wrong : {0, -1, 100000}) {
-    options.threads = wrong;
-    EXPECT_THROW(Simulation(stage::ground(), options), InvalidInput) << wrong;
-  }
-}
-
 // More threads than parts of the work, and fewer contacts than threads.
 TEST(Threads, MayBeMoreThanThereIsWork) {
   SimulationOptions options;

@@ -1594,6 +1594,7 @@ class Simulation:
         integrator: str = "symmetric_top",
         *,
         contact_solver: str = "automatic",
+        contact_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-07,
         substeps: typing.SupportsInt | typing.SupportsIndex = 0,
         sleep_after: typing.SupportsFloat | typing.SupportsIndex = ...,
         verify: bool = False,
@@ -1602,8 +1603,9 @@ class Simulation:
         """
         scene: copied, so later changes to it do not reach the simulation; dt: s, > 0, the
         largest step taken; integrator: of rotations, one of METHODS; contact_solver:
-        'automatic', 'small_steps' or 'direct'; substeps: of the small steps, 0 for as many as
-        the loads ask for; sleep_after: s at rest until an island costs nothing, inf for
+        'automatic', 'small_steps' or 'direct'; contact_tolerance: m/s, residual at which the
+        direct solver stops; substeps: of the small steps, 0 for as many as the loads ask
+        for; sleep_after: s at rest until an island costs nothing, inf for
         never; verify: look at the ways of every step again with exact predicates, see
         report.sweep.crossings; slow; threads: 1 to 1024 share the contact solver's work, with
         the same bits whatever their number.
