@@ -78,8 +78,11 @@ Measured measure(int bodies, const Shape& shape, double settle) {
     for (const BodyPair& p : tree.update(boxes, s.moves)) {
       out.clear();
       const Frame at_a(s.pose(p.a)), at_b(s.pose(p.b));
-      cache.collide(p.a, p.b, {simulation.scene().bodies[p.a].shape, at_a, s.pose(p.a).orientation},
-                    {simulation.scene().bodies[p.b].shape, at_b, s.pose(p.b).orientation},
+      const bool ball = std::holds_alternative<Sphere>(shape);
+      const Shape &of_a = simulation.scene().bodies[p.a].shape,
+                  &of_b = simulation.scene().bodies[p.b].shape;
+      cache.collide(p.a, p.b, {of_a, at_a, s.pose(p.a).orientation, ball},
+                    {of_b, at_b, s.pose(p.b).orientation, ball},
                     tolerance::contact_margin + reach[p.a] + reach[p.b], radius, out);
     }
     if (step > 0)  // what was carried along keeps the pose it was found at

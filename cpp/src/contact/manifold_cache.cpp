@@ -63,7 +63,7 @@ void ManifoldCache::collide(int a, int b, const Placed& in_a, const Placed& in_b
                             double reach, std::vector<Manifold>& out) {
   const Frame &frame_a = in_a.frame, &frame_b = in_b.frame;
   // A ball's point does not stay in place when it rolls, and finding it costs less than this.
-  if (std::holds_alternative<Sphere>(in_a.shape) || std::holds_alternative<Sphere>(in_b.shape)) {
+  if (in_a.is_ball || in_b.is_ball) {
     carom::collide(in_a.shape, frame_a, in_b.shape, frame_b, margin, out);
     return;
   }

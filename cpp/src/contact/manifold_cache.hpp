@@ -41,6 +41,7 @@ class ManifoldCache {
     const Shape& shape;
     const Frame& frame;
     const Eigen::Quaterniond& orientation;
+    bool is_ball;
   };
   /// Appends the pair's manifolds to `out`, found again or carried along. `reach`: m, length of the
   /// smaller body, to which the motion that is let pass is proportional.

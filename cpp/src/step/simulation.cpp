@@ -38,9 +38,16 @@ void take_impulses(World& world) {
   }
 }
 
-/// Sizes that tell which motion is too fast for a body.
+/// Sizes that tell which motion is too fast for a body, and what contacts ask of it.
 void measure_bodies(World& world) {
   const std::size_t n = world.scene.bodies.size();
+  world.touch.resize(n), world.is_ball.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Scene::Body& body = world.scene.bodies[i];
+    world.touch[i] = {body.friction, body.restitution, body.rolling_resistance,
+                      body.spinning_resistance};
+    world.is_ball[i] = std::holds_alternative<Sphere>(body.shape);
+  }
   SweepWork& w = world.sweep;
   w.thickness.resize(n), w.turning_radius.resize(n), w.radius.resize(n), w.ccd.resize(n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -61,6 +61,11 @@ struct Push {
   double impulse = 0;   ///< N s
 };
 
+/// What contacts ask of a body, of all bodies side by side: the scene's own are far apart.
+struct Touch {
+  double friction = 0, restitution = 0, rolling_resistance = 0, spinning_resistance = 0;
+};
+
 /// What the stages of a step share. Scratch keeps its capacity: a warm step allocates nothing.
 struct World {
   Scene scene;
@@ -91,8 +96,10 @@ struct World {
   std::vector<double> island_still;      ///< scratch: by lowest row
   std::vector<Contact> asleep_contacts;  ///< what they start from when they wake
   std::vector<Aabb> boxes;
-  std::vector<std::uint8_t> boxed;  ///< by row: stands still, and has its box since the last plan
-  std::vector<Frame> frames;        ///< of bodies in pairs, as the step began
+  std::vector<std::uint8_t> boxed;    ///< by row: stands still, and has its box since the last plan
+  std::vector<Touch> touch;           ///< by row
+  std::vector<std::uint8_t> is_ball;  ///< by row
+  std::vector<Frame> frames;          ///< of bodies in pairs, as the step began
   std::vector<Eigen::Quaterniond> turns;  ///< the same rotations
   std::vector<std::uint8_t> framed;
   std::vector<double> swing;        ///< m that turning can carry a point of one with a frame
@@ -102,7 +109,6 @@ struct World {
   std::span<const BodyPair> pairs;  ///< of the step: those that may meet
   std::vector<Manifold> manifolds;  ///< of the pair at hand
   std::vector<Contact> contacts, contacts_before;
-  std::vector<std::size_t> warm;  ///< scratch of warm starts
   SweepWork sweep;
   std::vector<Push> pushes;  ///< scratch of the repulsion
 };

@@ -156,7 +156,7 @@ void run_contacts(World& world) {
   world.manifold_cache.begin_step();
   const auto placed = [&](int i) {
     return contact::ManifoldCache::Placed{world.scene.bodies[i].shape, world.frames[i],
-                                          world.turns[i]};
+                                          world.turns[i], world.is_ball[i] != 0};
   };
   for (const BodyPair& pair : world.pairs) {
     world.manifolds.clear();
@@ -164,8 +164,7 @@ void run_contacts(World& world) {
         pair.a, pair.b, placed(pair.a), placed(pair.b), margin_of(world, pair.a, pair.b),
         std::min(world.sweep.radius[pair.a], world.sweep.radius[pair.b]), world.manifolds);
     if (world.manifolds.empty()) continue;
-    const Scene::Body& a = world.scene.bodies[pair.a];
-    const Scene::Body& b = world.scene.bodies[pair.b];
+    const Touch &a = world.touch[pair.a], &b = world.touch[pair.b];
     const double friction = std::sqrt(a.friction * b.friction);
     const double restitution = std::max(a.restitution, b.restitution);
     double apart = tolerance::sweep_touch;  // m: of pairs left to the sweep the solver has the rest
