@@ -37,7 +37,7 @@ fi
 if [ ! -x .venv/bin/pip ]; then
   python3 -m venv .venv
 fi
-echo "carom: preparing .venv (first time: one to three minutes)" >&2
+echo "carom: preparing .venv (first time: three to six minutes)" >&2
 .venv/bin/pip install -q --disable-pip-version-check \
   "scikit-build-core>=0.10" "pybind11>=2.13" "cmeel-eigen>=3.4" "cmake>=3.25" "ninja>=1.11" setuptools wheel
 # With tests one tree serves the module and them: the library is compiled once.
