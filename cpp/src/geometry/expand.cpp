@@ -60,8 +60,9 @@ struct Hull {
   }
 };
 
-/// A tetrahedron of support points as fat as the first few directions give.
-bool start(const Difference& difference, Hull& hull) {
+/// A tetrahedron of support points as fat as the first few directions give. False where they have
+/// no volume; `across` is then square to what they span.
+bool start(const Difference& difference, Hull& hull, Vector3d& across) {
   hull.points.clear();
   hull.faces.clear();
   std::array<Vertex, 6> first;
@@ -72,8 +73,10 @@ bool start(const Difference& difference, Hull& hull) {
   for (int i = 0; i < 6; ++i)
     for (int j = i + 1; j < 6; ++j)
       if (const double d = (first[i].w - first[j].w).norm(); d > longest) longest = d, p = i, q = j;
+  across = Vector3d::UnitZ();
   if (!(longest > 0)) return false;
   const Vector3d along = (first[q].w - first[p].w) / longest;
+  across = along.unitOrthogonal();
   Vertex third = first[p];
   double far = 0;
   const Vector3d u = along.unitOrthogonal(), w = along.cross(u);
@@ -85,6 +88,7 @@ bool start(const Difference& difference, Hull& hull) {
   Vector3d n = along.cross(third.w - first[p].w);
   if (!(n.norm() > tolerance::flat_triangle * longest * longest)) return false;
   n.normalize();
+  across = n;
   Vertex fourth = difference.support(n);
   const Vertex other = difference.support(-n);
   if (std::abs(n.dot(other.w - first[p].w)) > std::abs(n.dot(fourth.w - first[p].w)))
@@ -113,10 +117,8 @@ Found expand(const Difference& difference) {
   thread_local Hull hull;
   Found out;
   out.overlap = true;
-  if (!start(difference, hull)) {  // no volume: what overlaps there only touches
-    out.normal = difference.b_in_a.translation.squaredNorm() > 0
-                     ? Vector3d(difference.b_in_a.translation.normalized())
-                     : Vector3d(Vector3d::UnitZ());
+  if (Vector3d n; !start(difference, hull, n)) {  // no volume: what overlaps there only touches
+    out.normal = difference.b_in_a.translation.dot(n) < 0 ? Vector3d(-n) : n;
     const Vertex v = difference.support(out.normal);
     out.a = v.a, out.b = v.b;
     out.distance = out.normal.dot(v.w);

@@ -85,11 +85,11 @@ void surface_ball(const MeshSurface& a, const Vector3d& centre, double radius, d
                  const Vector3d away = centre - q.point;
                  const double distance = away.norm();
                  if (distance > reach) return;
-                 const std::uint32_t feature = held_by(a, f, q.feature, away);
-                 if (feature == 0 || known(feature)) return;
-                 const bool on_face = feature == feature::face(a.face_cluster[f]);
+                 const std::optional<std::uint32_t> feature = held_by(a, f, q.feature, away);
+                 if (!feature || known(*feature)) return;
+                 const bool on_face = *feature == feature::face(a.face_cluster[f]);
                  add(centre, on_face ? a.face_normals[f] : Vector3d(away / distance), distance,
-                     radius, feature, out);
+                     radius, *feature, out);
                });
 }
 

@@ -135,7 +135,7 @@ double face_towards(const Vector3d& half, const Vector3d& n, const Frame* frame,
 
 /// Where an edge of one lies along an edge of the other and they all but touch. False elsewhere.
 bool lean_together(const Vector3d& half_a, const Vector3d& half_b, const Frame& b_in_a,
-                   double margin, std::vector<Manifold>& out) {
+                   double smaller, double margin, std::vector<Manifold>& out) {
   const Matrix3d &R = b_in_a.rotation, A = R.cwiseAbs();
   if (!(A.maxCoeff() > 1 - tolerance::parallel_edges)) return false;
   const Axis of_a = best_face_of_a(half_a, half_b, A, b_in_a.translation);
@@ -145,7 +145,7 @@ bool lean_together(const Vector3d& half_a, const Vector3d& half_b, const Frame& 
   Manifold m;
   if (!edge_on_edge(scratch_polytope(Box{2 * half_a}, 0), {of_a.separation, na, face_number(na)},
                     scratch_polytope(Box{2 * half_b}, 1), {of_b.separation, nb, face_number(in_b)},
-                    b_in_a, 2 * (half_a.norm() + half_b.norm()), m))
+                    b_in_a, smaller, m))
     return false;
   if (m.points[0].separation <= margin) out.push_back(m);
   return true;
@@ -163,8 +163,9 @@ void box_box(const Vector3d& half_a, const Vector3d& half_b, const Frame& b_in_a
   double between = std::numeric_limits<double>::infinity();
   const Axis best = best_axis(half_a, half_b, R, b_in_a.translation, margin, bias, between);
   if (best.separation > margin) return;
-  if (between < tolerance::edge_on_edge * size &&
-      lean_together(half_a, half_b, b_in_a, margin, out))
+  const double smaller = 4 * std::min(half_a.norm(), half_b.norm());
+  if (between < tolerance::edge_on_edge * smaller &&
+      lean_together(half_a, half_b, b_in_a, smaller, margin, out))
     return;
 
   const Vector3d n = direction(best, R), n_b = -(R.transpose() * n);

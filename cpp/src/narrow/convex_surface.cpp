@@ -176,16 +176,19 @@ void surface_convex(const MeshSurface& a, const Convex& b, const Frame& b_in_a, 
     std::ranges::sort(*list);
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
-  const double range = 0.5 * box.extents().minCoeff();
-  const Test test{b, b_in_a, a, margin, range, found};
-  for (int f : faces) test.face(f);
-  for (int e : edges) {
-    const auto& edge = a.edges[e];
-    const Vector3d p = a.vertex(edge.v0), q = a.vertex(edge.v1);
-    if (region.overlaps({p.cwiseMin(q), p.cwiseMax(q)})) test.edge(e);
-  }
-  for (int v : vertices)
-    if (squared_distance(box, a.vertex(v)) <= margin * margin) test.vertex(v);
+  const auto look = [&](double range) {
+    const Test test{b, b_in_a, a, margin, range, found};
+    for (int f : faces) test.face(f);
+    for (int e : edges) {
+      const auto& edge = a.edges[e];
+      const Vector3d p = a.vertex(edge.v0), q = a.vertex(edge.v1);
+      if (region.overlaps({p.cwiseMin(q), p.cwiseMax(q)})) test.edge(e);
+    }
+    for (int v : vertices)
+      if (squared_distance(box, a.vertex(v)) <= margin * margin) test.vertex(v);
+  };
+  look(0.5 * box.extents().minCoeff());
+  if (found.empty()) look(box.extents().norm());  // a needle on end is deeper than it is thick
   if (found.empty()) {  // deeper than any local way out: the middle of the body decides
     const Vector3d centre = b_in_a.translation;
     const SurfacePoint q = closest_point(a, centre, std::numeric_limits<double>::infinity());

@@ -28,29 +28,31 @@ bool in_cone_of_edge(const MeshSurface& s, int e, const Eigen::Vector3d& directi
   return edge.inward0.dot(direction) <= slack && edge.inward1.dot(direction) <= slack;
 }
 
-std::uint32_t held_by(const MeshSurface& s, int f, TriangleFeature at,
-                      const Eigen::Vector3d& away) {
+std::optional<std::uint32_t> held_by(const MeshSurface& s, int f, TriangleFeature at,
+                                     const Eigen::Vector3d& away) {
+  using Held = std::optional<std::uint32_t>;
   const int k = static_cast<int>(at);
   const double slack = tolerance::normal_cone * away.norm();
-  const bool in_front = away.dot(s.face_normals[f]) >= 0;
-  if (k >= 6) return in_front ? feature::face(s.face_cluster[f]) : 0;
+  const Held by_face =
+      away.dot(s.face_normals[f]) >= 0 ? Held(feature::face(s.face_cluster[f])) : std::nullopt;
+  if (k >= 6) return by_face;
   if (k >= 3) {
     const int e = s.face_edges[f][k - 3];
     const auto& edge = s.edges[e];
-    if (edge.inward0.dot(away) > slack || edge.inward1.dot(away) > slack) return 0;
-    if (edge.bend == Bend::flat) return in_front ? feature::face(s.face_cluster[f]) : 0;
-    return edge.bend == Bend::convex ? feature::edge(e) : 0;
+    if (edge.inward0.dot(away) > slack || edge.inward1.dot(away) > slack) return std::nullopt;
+    if (edge.bend == Bend::flat) return by_face;
+    return edge.bend == Bend::convex ? Held(feature::edge(e)) : std::nullopt;
   }
   const int v = s.mesh.faces(f, k);
   bool flat = true;
   for (int i = s.vertex_first[v]; i < s.vertex_first[v + 1]; ++i) {
     const auto& e = s.edges[s.vertex_edges[i]];
     const Eigen::Vector3d along = s.vertex(e.v0 == v ? e.v1 : e.v0) - s.vertex(v);
-    if (along.dot(away) > slack * along.norm()) return 0;
+    if (along.dot(away) > slack * along.norm()) return std::nullopt;
     flat = flat && e.bend == Bend::flat;
   }
-  if (flat) return in_front ? feature::face(s.face_cluster[f]) : 0;
-  return s.vertex_sharp[v] ? feature::vertex(v) : 0;
+  if (flat) return by_face;
+  return s.vertex_sharp[v] ? Held(feature::vertex(v)) : std::nullopt;
 }
 
 }  // namespace carom

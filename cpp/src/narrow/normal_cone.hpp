@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "carom/geometry/mesh_surface.hpp"
 #include "carom/geometry/triangle.hpp"
@@ -16,9 +17,9 @@ namespace carom {
 /// The same at an edge: the direction lies between the normals of its two faces.
 [[nodiscard]] bool in_cone_of_edge(const MeshSurface& s, int e, const Eigen::Vector3d& direction);
 
-/// The feature of face f that a point at `away` from it is nearest to, 0 where the point belongs to
-/// another face, lies behind, or the surface is not convex there. On a flat edge: the face.
-[[nodiscard]] std::uint32_t held_by(const MeshSurface& s, int f, TriangleFeature at,
-                                    const Eigen::Vector3d& away);
+/// The feature of face f that a point at `away` from it is nearest to, none where the point belongs
+/// to another face, lies behind, or the surface is not convex there. On a flat edge: the face.
+[[nodiscard]] std::optional<std::uint32_t> held_by(const MeshSurface& s, int f, TriangleFeature at,
+                                                   const Eigen::Vector3d& away);
 
 }  // namespace carom

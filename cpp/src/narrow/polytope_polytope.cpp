@@ -91,9 +91,27 @@ void face_of(const Polytope& p, const std::vector<Vector3d>& vertices, int f, Fa
              feature::edge(p.corner_edges[k]));
 }
 
-double size_of(const Polytope& a, const Polytope& b) {
-  return (a.vertices.front() - a.vertices[a.corners[a.first.back() - 2]]).norm() +
-         (b.vertices.front() - b.vertices[b.corners[b.first.back() - 2]]).norm();
+double size_of(const Polytope& p) {
+  return (p.vertices.front() - p.vertices[p.corners[p.first.back() - 2]]).norm();
+}
+
+/// Of two edges that make the axis.
+ContactPoint crossing(const Polytope& a, const Polytope& b, const Moved& mb, const Axis& axis) {
+  const Polytope::Edge &e = a.edges[axis.a], &g = b.edges[axis.b];
+  const SegmentPoints s =
+      closest_points(a.vertices[e.v0], a.vertices[e.v1], mb.vertices[g.v0], mb.vertices[g.v1]);
+  return {0.5 * (s.p + s.q), axis.separation,
+          feature::pair(feature::edge(axis.a), feature::edge(axis.b))};
+}
+
+/// The corner of the other body that reaches deepest through the face of the axis.
+ContactPoint deepest_corner(const Polytope& a, const Moved& mb, const Axis& axis, bool of_b) {
+  const std::vector<Vector3d>& corners = of_b ? a.vertices : mb.vertices;
+  const Vector3d down = of_b ? axis.normal : Vector3d(-axis.normal);  // through the face
+  const int v = most_along(corners, down);
+  const std::uint32_t corner = feature::vertex(v), face = feature::face(axis.a);
+  return {corners[v] - 0.5 * axis.separation * (of_b ? -axis.normal : axis.normal), axis.separation,
+          of_b ? feature::pair(corner, face) : feature::pair(face, corner)};
 }
 
 }  // namespace
@@ -113,13 +131,16 @@ void polytope_polytope(const Polytope& a, const Polytope& b, const Frame& b_in_a
   const Axis by_edges = best_edges(a, b, mb);
   if (by_edges.separation > margin) return;
 
-  const double bias = tolerance::axis_preference * size_of(a, b);
+  const double size_a = size_of(a), size_b = size_of(b);
+  const double bias = tolerance::axis_preference * (size_a + size_b);
   if (Manifold m; edge_on_edge(a, {by_a.separation, by_a.normal, by_a.a}, b,
-                               {by_b.separation, by_b.normal, by_b.a}, b_in_a, size_of(a, b), m)) {
+                               {by_b.separation, by_b.normal, by_b.a}, b_in_a,
+                               2 * std::min(size_a, size_b), m)) {
     if (m.points[0].separation <= margin) out.push_back(m);
     return;
   }
-  Axis best = by_b.separation > by_a.separation + bias ? by_b : by_a;
+  const bool of_b = by_b.separation > by_a.separation + bias;
+  Axis best = of_b ? by_b : by_a;
   const bool edges = by_edges.separation > best.separation + bias;
   if (edges) best = by_edges;
 
@@ -135,14 +156,11 @@ void polytope_polytope(const Polytope& a, const Polytope& b, const Frame& b_in_a
     face_of(b, mb.vertices, fb, face_b);
     clip(face_a, face_b, best.normal, margin, points);
   }
-  if (edges && points.empty()) {
-    const Polytope::Edge &e = a.edges[best.a], &g = b.edges[best.b];
-    const SegmentPoints s =
-        closest_points(a.vertices[e.v0], a.vertices[e.v1], mb.vertices[g.v0], mb.vertices[g.v1]);
-    points.push_back({0.5 * (s.p + s.q), best.separation,
-                      feature::pair(feature::edge(best.a), feature::edge(best.b))});
-  }
-  if (points.empty()) return;
+  // Of the two faces most along the axis neither need hold the corner or the edge that is deepest.
+  double least = std::numeric_limits<double>::infinity();
+  for (const ContactPoint& p : points) least = std::min(least, p.separation);
+  if (!(least <= best.separation + bias))
+    points.push_back(edges ? crossing(a, b, mb, best) : deepest_corner(a, mb, best, of_b));
   reduce(points, best.normal, out.emplace_back());
 }
 

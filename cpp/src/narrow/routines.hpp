@@ -42,7 +42,7 @@ struct FaceAxis {
 };
 /// The contact of two edges that lie along one another; false where the two best faces do not meet
 /// in such a pair, nearly touching.
-/// @param size  m, of both together
+/// @param size  m, twice that of the smaller
 bool edge_on_edge(const Polytope& pa, const FaceAxis& a, const Polytope& pb, const FaceAxis& b,
                   const Frame& b_in_a, double size, Manifold& out);
 /// For few faces: separating axes while they overlap, convex_convex while apart.

@@ -83,7 +83,7 @@ void sdf_convex(const SdfGrid& a, const Convex& b, const Frame& b_in_a, double m
   if (best.gap <= margin) {
     thread_local Face face;
     support_face(b, -(b_in_a.rotation.transpose() * best.normal), b_in_a, face);
-    if (face.points.size() > 2 && !b.is_polyhedral())
+    if (face.points.size() > 1 && !b.is_polyhedral())
       for (std::size_t i = 0; i < face.points.size(); ++i)
         offer(face.points[i], face.vertex_features[i]);
   }

@@ -48,7 +48,7 @@ void Simulation::remove(BodyId id) {
   const int row = row_of(*world_, id);
   wake(*world_, -1);
   world_->asleep.clear(), world_->bed.clear(), world_->still.clear();
-  world_->manifold_cache.clear();  // rows close up
+  world_->manifold_cache.clear(), world_->sweep.waited.clear();  // rows close up
   world_->scene.remove(id);
   world_->states.erase(row);
   world_->solver.memory.erase(row);

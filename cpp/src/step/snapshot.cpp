@@ -13,7 +13,14 @@ namespace carom {
 namespace {
 
 // Raised whenever the list below changes. Two lists were both called 3, so neither is read.
-constexpr std::uint32_t format = 4;
+constexpr std::uint32_t format = 5;
+
+/// FNV-1a, 64 bits.
+std::uint64_t hash_of(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
 
 struct Writer {
   std::string bytes;
@@ -136,6 +143,7 @@ void everything(Io& io, W& world) {
   io.array(world.bed);
   io.array(world.still);
   contacts(io, world.asleep_contacts);
+  io.array(world.sweep.waited);
   list(io, world.requests, [&](auto& r) {
     io.value(r.row);
     for (auto* v : {&r.force, &r.torque, &r.impulse, &r.angular_impulse}) vector3(io, *v);
@@ -152,7 +160,17 @@ void require_rows(const World& world, int rows) {
   const Array4& q = s.orientation;
   good = good && fits(q.x) && fits(q.y) && fits(q.z) && fits(q.w);
   const auto row = [&](int i) { return i >= 0 && i < rows; };
-  for (const Contact& c : world.contacts) good = good && row(c.a) && row(c.b);
+  for (const auto* all : {&world.contacts, &world.asleep_contacts})
+    for (const Contact& c : *all) good = good && row(c.a) && row(c.b);
+  for (const auto* rows_of : {&world.asleep, &world.sweep.waited})
+    good = good && (rows_of->empty() || fits(*rows_of));
+  for (const auto* islands : {&world.bed, &world.solver.memory.island})
+    for (const std::int32_t i : *islands) good = good && i < rows;
+  good = good && world.bed.size() == world.asleep.size();
+  for (const contact::ManifoldCache::Pair& p : world.manifold_cache.pairs)
+    good = good && row(p.a) && row(p.b) && p.first >= 0 && p.count >= 0 &&
+           static_cast<std::size_t>(p.first) + static_cast<std::size_t>(p.count) <=
+               world.manifold_cache.points.size();
   for (const Request& r : world.requests) good = good && row(r.row);
   if (!good) throw InvalidInput("bytes", "a list", "does not fit the bodies");
 }
@@ -190,6 +208,7 @@ std::string Simulation::save() const {
   everything(writer, std::as_const(*world_));
   const std::vector<AppliedWrench> held = held_wrenches(world_->scene);
   list(writer, held, [&](const AppliedWrench& w) { wrench(writer, w); });
+  writer.value(hash_of(writer.bytes));
   return std::move(writer.bytes);
 }
 
@@ -201,8 +220,14 @@ void Simulation::restore(const std::string& bytes) {
     header(reader, world_->scene);
     everything(reader, world);
     list(reader, held, [&](AppliedWrench& w) { wrench(reader, w); });
+    const std::uint64_t found = hash_of(std::string_view(bytes).substr(0, reader.at));
+    std::uint64_t saved = 0;
+    reader.value(saved);
     if (reader.at != bytes.size())
       throw InvalidInput("bytes", std::to_string(bytes.size()) + " bytes", "are more than a state");
+    if (found != saved)
+      throw InvalidInput("bytes", "their sum", "does not match: they are damaged",
+                         "restore what save() gave, unchanged");
   };
   World trial;
   read_into(trial);
@@ -220,9 +245,7 @@ void Simulation::restore(const std::string& bytes) {
 }
 
 std::uint64_t Simulation::state_hash() const {
-  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a, 64 bits
-  for (const char c : save()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return hash;
+  return hash_of(save());
 }
 
 }  // namespace carom

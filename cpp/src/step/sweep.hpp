@@ -47,7 +47,9 @@ struct SweepWork {
   Array3 pull;                      ///< m/s^2, by row: what acts on it once nothing holds it
   Array3 torque;                    ///< N m, by row: rate of the angular momentum over the step
   std::vector<std::uint8_t> waits;  ///< by row: stays where it is until the step ends
-  std::vector<int> version, hits;   ///< by row
+  /// By row, empty where none: waited in the step before. Part of a saved state.
+  std::vector<std::uint8_t> waited;
+  std::vector<int> version, hits;  ///< by row
   std::vector<BodyPair> near_pairs;
   int ahead = 0;                    ///< rows whose way stands in the tree of the pair stage
   std::vector<int> strayed;         ///< rows whose path left the box it has in that tree
@@ -106,7 +108,7 @@ void lay_path(World& world, int row, double t, const Eigen::Vector3d& accelerati
 /// Puts the states of a row to time t of its path.
 void go_to(World& world, int row, double t);
 /// Stops a body where it is at time t, until the step ends; it keeps its velocity.
-void wait_at(World& world, int row, double t);
+void wait_at(World& world, int row, double t, bool tired);
 /// Box of all that a body may touch on a parabola between two places of its centre of mass that
 /// ends at the velocity of the states.
 [[nodiscard]] Aabb path_box(const World& world, int row, const Eigen::Vector3d& from,

@@ -152,7 +152,7 @@ void lay_path(World& world, int i, double t, const Vector3d& acceleration) {
   s.angular_momentum.set(i, s.angular_momentum[i] + rest * w.torque[i]);
 }
 
-void wait_at(World& world, int i, double t) {
+void wait_at(World& world, int i, double t, bool tired) {
   SweepWork& w = world.sweep;
   if (!world.states.moves[i] || w.waits[i]) return;
   go_to(world, i, t);
@@ -163,7 +163,8 @@ void wait_at(World& world, int i, double t) {
   path.velocity.setZero(), path.acceleration.setZero();
   path.arcs.assign(1, {t, q, Vector3d::Zero()});
   w.waits[i] = 1;
-  if (world.scene.bodies[i].restitution < 1) {
+  const bool jams = tired || (!w.waited.empty() && w.waited[i]);
+  if (jams && world.scene.bodies[i].restitution < 1) {
     BodyStates& s = world.states;
     world.dissipated += s.kinetic_energy(i);
     s.velocity.set(i, tolerance::sweep_wait_keeps * s.velocity[i]);

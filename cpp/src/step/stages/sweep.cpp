@@ -51,8 +51,8 @@ void handle(World& world, const SweepEvent& event) {
   } else {
     ++world.report.sweep.gave_up;
   }
-  if (stop_a || (!certain && world.states.moves[event.a])) wait_at(world, event.a, t);
-  if (stop_b || (!certain && world.states.moves[event.b])) wait_at(world, event.b, t);
+  if (stop_a || (!certain && world.states.moves[event.a])) wait_at(world, event.a, t, stop_a);
+  if (stop_b || (!certain && world.states.moves[event.b])) wait_at(world, event.b, t, stop_b);
   for (const int row : {event.a, event.b}) {
     if (!world.states.moves[row]) continue;
     ++w.version[row];
@@ -72,6 +72,7 @@ void run_sweep(World& world) {
   any = mark_turned(world) || any;
   const bool verify = world.options.verify;
   world.report.sweep.swept = static_cast<int>(std::ranges::count(w.fast, 1));
+  if (!any) w.waited.clear();
   if (!any && !verify) return;
   begin_paths(world);
   if (verify)
@@ -89,6 +90,8 @@ void run_sweep(World& world) {
     if (w.version[event.a] == event.version_a && w.version[event.b] == event.version_b)
       handle(world, event);
   }
+  w.waited.clear();
+  if (std::ranges::count(w.waits, 1) > 0) w.waited = w.waits;
   if (verify) verify_step(world);
 }
 
