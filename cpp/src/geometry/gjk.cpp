@@ -156,6 +156,9 @@ Found gjk(const Difference& difference, double beyond) {
     out.normal = n.dot(v) < 0 ? Vector3d(-n) : n;
     out.distance = out.normal.dot(s.v[0].w);
   }
+  // A search that rounding ended at a flat simplex may stand within an overlap: nothing then holds
+  // the bodies apart along what it found.
+  out.overlap = difference.gap(out.normal) < -tolerance::touching_core * scale;
   return out;
 }
 

@@ -49,6 +49,8 @@ struct SweepWork {
   std::vector<std::uint8_t> waits;  ///< by row: stays where it is until the step ends
   /// By row, empty where none: waited in the step before. Part of a saved state.
   std::vector<std::uint8_t> waited;
+  std::vector<int>
+      met_only;  ///< by row: what it hit in this step; its own row: nothing, -1: several
   std::vector<int> version, hits;  ///< by row
   std::vector<BodyPair> near_pairs;
   int ahead = 0;                    ///< rows whose way stands in the tree of the pair stage
@@ -108,7 +110,11 @@ void lay_path(World& world, int row, double t, const Eigen::Vector3d& accelerati
 /// Puts the states of a row to time t of its path.
 void go_to(World& world, int row, double t);
 /// Stops a body where it is at time t, until the step ends; it keeps its velocity.
-void wait_at(World& world, int row, double t, bool tired);
+void wait_at(World& world, int row, double t);
+/// Takes from a body that jams a share of its speed, unless it is fully elastic; from two that jam
+/// against each other alone, of what they do against each other: their momentum stays.
+void calm(World& world, int row);
+void calm_together(World& world, int a, int b);
 /// Box of all that a body may touch on a parabola between two places of its centre of mass that
 /// ends at the velocity of the states.
 [[nodiscard]] Aabb path_box(const World& world, int row, const Eigen::Vector3d& from,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "carom/numerics/rotation.hpp"
 #include "carom/numerics/tolerance.hpp"
@@ -88,6 +89,8 @@ void begin_paths(World& world) {
   w.paths.resize(n);
   w.laid.assign(n, 0), w.waits.assign(n, 0), w.boxed.assign(n, 0), w.version.assign(n, 0),
       w.hits.assign(n, 0);
+  w.met_only.resize(n);
+  std::iota(w.met_only.begin(), w.met_only.end(), 0);
   for (Array3* a : {&w.torque, &w.pull}) a->x.resize(n), a->y.resize(n), a->z.resize(n);
 }
 
@@ -152,7 +155,7 @@ void lay_path(World& world, int i, double t, const Vector3d& acceleration) {
   s.angular_momentum.set(i, s.angular_momentum[i] + rest * w.torque[i]);
 }
 
-void wait_at(World& world, int i, double t, bool tired) {
+void wait_at(World& world, int i, double t) {
   SweepWork& w = world.sweep;
   if (!world.states.moves[i] || w.waits[i]) return;
   go_to(world, i, t);
@@ -163,14 +166,6 @@ void wait_at(World& world, int i, double t, bool tired) {
   path.velocity.setZero(), path.acceleration.setZero();
   path.arcs.assign(1, {t, q, Vector3d::Zero()});
   w.waits[i] = 1;
-  const bool jams = tired || (!w.waited.empty() && w.waited[i]);
-  if (jams && world.scene.bodies[i].restitution < 1) {
-    BodyStates& s = world.states;
-    world.dissipated += s.kinetic_energy(i);
-    s.velocity.set(i, tolerance::sweep_wait_keeps * s.velocity[i]);
-    s.angular_momentum.set(i, tolerance::sweep_wait_keeps * s.angular_momentum[i]);
-    world.dissipated -= s.kinetic_energy(i);
-  }
   world.report.sweep.waited += 1;
   world.report.sweep.time_lost += world.dt - t;
 }

@@ -206,6 +206,30 @@ TEST(Sweep, WhatIsWedgedWaitsAndIsReported) {
   EXPECT_GT(sweep.impacts, 2);
 }
 
+// Two hulls that spin and hit at everyday speed: a pair that is given up for the rest of a step
+// waits, and gets its momentum back.
+TEST(Sweep, APairGivenUpKeepsItsMomentum) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  TriangleMesh::Vertices points(12, 3);
+  for (int i = 0; i < 12; ++i)
+    points.row(i) << 0.2 * normal(random), 0.2 * normal(random), 0.2 * normal(random);
+  const Shape hull = ConvexHull(points);
+  for (int run = 0; run < 40; ++run) {
+    Scene scene;
+    for (const double side : {-1.0, 1.0})
+      scene.add({.shape = hull,
+                 .pose = {.position = {0.5 * side, 0.05 * normal(random), 0.05 * normal(random)}},
+                 .velocity = {-2 * side, 0, 0},
+                 .angular_velocity = 4 * Vector3d(normal(random), normal(random), normal(random))});
+    Simulation s(std::move(scene));
+    const auto mean = [&] { return Vector3d(s.states().velocity[0] + s.states().velocity[1]); };
+    const Vector3d before = mean();
+    s.advance(1);
+    EXPECT_LT((mean() - before).norm(), 1e-9) << run;
+  }
+}
+
 // The second look is by other code: it must see the crossing of a body that nobody followed, and
 // none where bodies are followed through hits.
 TEST(Sweep, TheSecondLookFindsWhatPassesAndOnlyThat) {

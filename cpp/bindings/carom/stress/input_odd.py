@@ -174,7 +174,7 @@ def scene_files_with_faults() -> float:
 
 @cases.case(
     "bytes of a saved state cut short, changed or of another program",
-    "of 40 damaged states, those taken silently or that change the simulation when refused",
+    "of 240 damaged states, those taken silently or that change the simulation when refused",
     0,
     "states",
 )
@@ -187,6 +187,8 @@ def damaged_saved_states() -> float:
     rng = np.random.default_rng(73)
     damaged = [saved[:n] for n in rng.integers(0, len(saved), 20)]
     damaged += [bytes(rng.integers(0, 256, n, dtype=np.uint8)) for n in rng.integers(0, 500, 20)]
+    for at in rng.integers(0, len(saved), 200):
+        damaged.append(saved[:at] + bytes([saved[at] ^ 0xFF]) + saved[at + 1 :])
     for data in damaged:
         try:
             simulation.restore(data)

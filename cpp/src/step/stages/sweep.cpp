@@ -35,6 +35,17 @@ bool mark_fast(World& world) {
   return any;
 }
 
+/// Whether the two have met nothing but each other in this step.
+bool note_meeting(SweepWork& w, int a, int b) {
+  const auto note = [&](int row, int other) {
+    int& met = w.met_only[row];
+    met = met == row || met == other ? other : -1;
+    return met == other;
+  };
+  const bool of_a = note(a, b), of_b = note(b, a);
+  return of_a && of_b;
+}
+
 void handle(World& world, const SweepEvent& event) {
   SweepWork& w = world.sweep;
   const double t = event.contact.time;
@@ -51,8 +62,19 @@ void handle(World& world, const SweepEvent& event) {
   } else {
     ++world.report.sweep.gave_up;
   }
-  if (stop_a || (!certain && world.states.moves[event.a])) wait_at(world, event.a, t, stop_a);
-  if (stop_b || (!certain && world.states.moves[event.b])) wait_at(world, event.b, t, stop_b);
+  const bool alone = note_meeting(w, event.a, event.b);
+  const auto stop = [&](int row, bool tires) {
+    const bool waits = world.states.moves[row] && (tires || !certain) && !w.waits[row];
+    if (waits) wait_at(world, row, t);
+    return waits && (tires || (!w.waited.empty() && w.waited[row]));
+  };
+  const bool jams_a = stop(event.a, stop_a), jams_b = stop(event.b, stop_b);
+  if (jams_a && jams_b && alone) {
+    calm_together(world, event.a, event.b);
+  } else {
+    if (jams_a) calm(world, event.a);
+    if (jams_b) calm(world, event.b);
+  }
   for (const int row : {event.a, event.b}) {
     if (!world.states.moves[row]) continue;
     ++w.version[row];
