@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 
+import carom
 from carom_ros import limits
 from carom_ros.refusal import Refusal
 
@@ -79,6 +80,27 @@ def body_name(value: object, field: str) -> str:
     if len(value) > limits.NAME_CHARACTERS:
         raise Refusal(field, value, f"must have at most {limits.NAME_CHARACTERS} characters")
     return value
+
+
+def require_scene_in_limits(scene: carom.Scene) -> None:
+    """Of a scene sent over ~/scene what Markers are held to as well. @throws Refusal"""
+    for row, body in enumerate(scene.bodies):
+        at = f"bodies[{row}]"
+        if len(body.name) > limits.NAME_CHARACTERS:
+            rule = f"must have at most {limits.NAME_CHARACTERS} characters"
+            raise Refusal(f"{at}.name", body.name, rule, "topic names are built from it")
+        for field, limit, unit in (
+            ("position", limits.COORDINATE_M, "m"),
+            ("velocity", limits.SPEED_M_S, "m/s"),
+            ("angular_velocity", limits.SPIN_RAD_S, "rad/s"),
+        ):
+            vector(getattr(body, field).tolist(), f"{at}.{field}", limit, unit)
+        if not body.static:
+            number(body.mass_properties.mass, f"{at}.mass", limits.MASS_MAX_KG, "kg")
+    for row, effect in enumerate(scene.effects):
+        if isinstance(effect, carom.UniformGravity):
+            at = f"effects[{row}].acceleration"
+            vector(effect.acceleration.tolist(), at, limits.ACCELERATION, "m/s^2")
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from geometry_msgs.msg import Wrench, WrenchStamped
 from nav_msgs.msg import Odometry
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
 from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
@@ -98,10 +99,16 @@ class Inputs:
         for name in [name for name in self._bodies if name not in wanted]:
             for subscription in self._bodies.pop(name):
                 self._node.destroy_subscription(subscription)
+        without = len(movable) - len(wanted)
         for name in movable:
-            if name in wanted and name not in self._bodies:
+            if name not in wanted or name in self._bodies:
+                continue
+            try:
                 self._bodies[name] = self._body_topics(name)
-        return len(movable) - len(wanted)
+            except InvalidTopicNameException:  # a scene's names may hold what a topic's may not
+                self._bodies[name] = []
+                without += 1
+        return without
 
     def _body_topics(self, name: str) -> list:
         def wrench(msg: Wrench, source: str) -> Iterable[Request]:

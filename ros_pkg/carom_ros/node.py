@@ -154,8 +154,9 @@ class SimulationNode(Node):
         return diagnostics.array(self.world, self.pace, rejected, self.paused, now)
 
     def _refuse(self, source: str, refusal: Exception) -> None:
-        self.outputs.refuse(source, refusal_of(refusal))
-        text = f"refused {source}: {refusal}"
+        told = refusal_of(refusal)
+        self.outputs.refuse(source, told)
+        text = f"refused {source}: {told}"
         self.get_logger().warning(text, throttle_duration_sec=1.0)
 
     def _say(self, outcome: Outcome) -> None:

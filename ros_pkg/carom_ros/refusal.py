@@ -14,8 +14,10 @@ class Refusal(ValueError):
     """One refused request. The four parts are the keys of the records on ~/rejected."""
 
     def __init__(self, field: str, value: object, rule: str, remedy: str = "") -> None:
-        self.field, self.value, self.rule, self.remedy = field, shown(value), rule, remedy
-        super().__init__(f"{self.field}: {self.value}, {rule}" + (f"; {remedy}" if remedy else ""))
+        self.field, self.value = shown(field), shown(value)
+        self.rule, self.remedy = _one_line(rule), _one_line(remedy)
+        told = f"{self.field}: {self.value}, {self.rule}"
+        super().__init__(f"{told}; {self.remedy}" if remedy else told)
 
 
 def shown(value: object) -> str:
@@ -31,6 +33,11 @@ def shown(value: object) -> str:
 def _visible(text: str) -> str:
     """Control characters and lone surrogates escaped: messages go to terminals and to DDS."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def _one_line(text: str) -> str:
+    """A sentence that may quote what was sent."""
+    return _visible(" ".join(text.split("\n")))
 
 
 def refusal_of(error: BaseException, field: str = "") -> Refusal:

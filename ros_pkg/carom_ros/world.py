@@ -9,7 +9,7 @@ import numpy as np
 
 import carom
 from carom_ros import limits
-from carom_ros.checks import nearest
+from carom_ros.checks import nearest, require_scene_in_limits
 from carom_ros.journal import Journal
 from carom_ros.refusal import Refusal, refusal_of
 from carom_ros.requests import (
@@ -300,7 +300,9 @@ def read_scene_text(text: str) -> carom.Scene:
     """A scene sent as text; files are not read for it. @throws InvalidInput"""
     from carom.scene_file import parse
 
-    return parse(text, source="~/scene")
+    scene = parse(text, source="~/scene")
+    require_scene_in_limits(scene)
+    return scene
 
 
 def default_scene() -> carom.Scene:

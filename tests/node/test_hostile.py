@@ -195,6 +195,24 @@ def test_a_bad_marker_among_good_ones_is_the_only_one_refused(told: tuple) -> No
     assert last_refusal(bench, got)["source"] == "~/spawn_array markers[2]"
 
 
+def test_a_key_of_control_characters_does_not_stop_the_markers_after_it(told: tuple) -> None:
+    bench, got = told
+    bad = cube(put("text", '{"\\ud800\\e[31m": 1}'))
+    bench.send("/carom/spawn_array", MarkerArray(markers=[bad, cube(put("id", 2))]))
+    bench.until(lambda: "box_2" in bench.world.names)
+    assert last_refusal(bench, got)["source"] == "~/spawn_array markers[0]"
+    assert got[-1].data.isprintable()
+
+
+def test_a_name_no_topic_can_hold_leaves_other_bodies_theirs(told: tuple) -> None:
+    bench, _ = told
+    for ns in ("ends_", "after"):  # the first becomes ends__1, and topics take no two underscores
+        bench.send("/carom/spawn", cube(put("ns", ns)))
+    bench.until(lambda: "after_1" in bench.world.names)
+    bench.send("/carom/bodies/after_1/impulse", Wrench())
+    bench.until(lambda: bench.node.count_subscribers("/carom/bodies/after_1/impulse") == 1)
+
+
 def told_of(msg: String) -> int:
     words = json.loads(msg.data)["rule"].split(" more were refused")
     return int(words[0]) if len(words) == 2 else 1

@@ -14,6 +14,7 @@ from visualization_msgs.msg import Marker
 from carom_ros import commands, marker, spawn_text, strict_yaml
 from carom_ros.refusal import Refusal
 from carom_ros.requests import Impulse, Spawn, from_plain, to_plain
+from carom_ros.world import read_scene_text
 
 
 def cube(**fields: object) -> Marker:
@@ -122,6 +123,36 @@ def test_a_refusal_shows_no_control_characters() -> None:
     refusal = Refusal("name", "\x1b[2J\ud800" + "x" * 1000, "must be a name")
     assert str(refusal).isprintable()
     assert len(str(refusal)) < 200
+
+
+def test_no_part_of_a_refusal_carries_control_characters() -> None:
+    refusal = Refusal("\x1b[31m\ud800", "\x07", "must\nbe \x1b[0m", "say\x1b")
+    for part in (refusal.field, refusal.value, refusal.rule, refusal.remedy, str(refusal)):
+        assert part.isprintable()
+        part.encode()  # a lone surrogate has no UTF-8
+
+
+@pytest.mark.parametrize(
+    ("line", "field"),
+    [
+        (
+            "{shape: {Sphere: {radius: 1}}, position: [1e300, 0, 0]}",
+            "bodies[0].position.x",
+        ),
+        ("{name: a, shape: {Sphere: {radius: 1}}, velocity: [0, 1e6, 0]}", "bodies[0].velocity.y"),
+        ("{name: a, shape: {Sphere: {radius: 1}}, density: 1e300}", "bodies[0].mass"),
+        ("{name: " + 65 * "x" + ", shape: {Sphere: {radius: 1}}}", "bodies[0].name"),
+    ],
+)
+def test_a_scene_is_held_to_the_limits_of_a_marker(line: str, field: str) -> None:
+    with pytest.raises(Refusal) as caught:
+        read_scene_text(f"bodies:\n- {line}\n")
+    assert caught.value.field == field
+
+
+def test_gravity_of_a_scene_has_a_limit() -> None:
+    with pytest.raises(Refusal, match="acceleration"):
+        read_scene_text("effects:\n- UniformGravity: {acceleration: [0, 0, -1e300]}\n")
 
 
 def test_an_orientation_is_normalised_only_when_it_nearly_is_already() -> None:
