@@ -288,7 +288,9 @@ void surface_surface(const MeshSurface& a, const MeshSurface& b, const Frame& b_
   near_a.gather(a, in_a);
   near_b.gather(b, in_b);
   const double reach = in_a.extents().norm();  // no overlap is deeper than what both boxes share
-  const double range = std::max(margin, shallow_share * std::min(thickness(a), thickness(b)));
+  // A sheet has no far side that a deep way out might lead to.
+  const double share = a.faults.closed() && b.faults.closed() ? shallow_share : 1.0;
+  const double range = std::max(margin, share * std::min(thickness(a), thickness(b)));
 
   found.clear();
   const VertexTest of_b{b, a, b_in_a, true, margin, reach, range};
