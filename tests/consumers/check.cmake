@@ -22,7 +22,11 @@ set(build ${work}/build)
 if(ROUTE STREQUAL "find_package")
   set(build ${work}/build-installed)
   run(${CMAKE_COMMAND} --install ${CAROM_BUILD} --prefix ${work}/prefix)
-  set(installed "-DCMAKE_PREFIX_PATH=${work}/prefix;${work}/prefix/carom/cpp")  # the second as in a wheel
+  set(prefix ${work}/prefix)
+  if(EXISTS ${prefix}/carom/cpp)  # as in a wheel
+    string(APPEND prefix /carom/cpp)
+  endif()
+  set(installed -DCMAKE_PREFIX_PATH=${prefix})
 endif()
 run(${CMAKE_COMMAND} -S ${work} -B ${build} -G ${GENERATOR} -DROUTE=${ROUTE}
   -DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM} -DCMAKE_CXX_FLAGS=${CXX_FLAGS}
