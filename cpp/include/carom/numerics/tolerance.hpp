@@ -354,8 +354,8 @@ inline constexpr double sweep_held = 0.5;
 inline constexpr double small_turn = 0.3;
 
 /// Share of its speed, and of its spin, that a body keeps when its hits run out, or when it has to
-/// wait in a second step on end, unless it is fully elastic. Choice: what jams loses its speed in some steps, as it would by
-/// hits without number.
+/// wait in a second step on end, unless it is fully elastic. Choice: what jams loses its speed in
+/// some steps, as it would by hits without number.
 inline constexpr double sweep_wait_keeps = 0.5;
 
 /// Distances one pair of convex parts may ask for before it counts as given up. A rod that turns
