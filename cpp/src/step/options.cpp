@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "step/options.hpp"
 
-#include <cmath>
+#include <string>
 
 #include "carom/numerics/invalid_input.hpp"
 

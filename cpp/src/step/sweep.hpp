@@ -49,8 +49,8 @@ struct SweepWork {
   std::vector<std::uint8_t> waits;  ///< by row: stays where it is until the step ends
   /// By row, empty where none: waited in the step before. Part of a saved state.
   std::vector<std::uint8_t> waited;
-  std::vector<int>
-      met_only;  ///< by row: what it hit in this step; its own row: nothing, -1: several
+  /// By row: the only one it hit in this step; its own row where none, -1 where several.
+  std::vector<int> met_only;
   std::vector<int> version, hits;  ///< by row
   std::vector<BodyPair> near_pairs;
   int ahead = 0;                    ///< rows whose way stands in the tree of the pair stage

@@ -94,8 +94,7 @@ void run_sweep(World& world) {
   any = mark_turned(world) || any;
   const bool verify = world.options.verify;
   world.report.sweep.swept = static_cast<int>(std::ranges::count(w.fast, 1));
-  if (!any) w.waited.clear();
-  if (!any && !verify) return;
+  if (!any && !verify) return w.waited.clear();
   begin_paths(world);
   if (verify)
     for (int i = 0; i < n; ++i) need_path(world, i);
